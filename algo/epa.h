@@ -1,0 +1,315 @@
+// EPA: how deep the origin lies inside the difference A - B, and which way out is shortest.
+//
+// van den Bergen, "Proximity Queries and Penetration Depth Computation on 3D Game Objects", GDC 2001. A polytope
+// inside A - B that holds the origin grows towards the boundary:
+//   f = nearest face                       its distance is a lower bound of the depth
+//   w = support(normal of f)               normal . w is an upper bound: moving that far along the normal separates
+//   stop when the bounds meet; else add w (algo/polytope.h)
+// Deviations: the start may be a simplex of any rank (seed, below); faces are ordered by *signed* distance, so that a
+// start which misses the origin by rounding grows until it holds it; the answer is the direction with the least upper
+// bound met, with the face it came from; where precision ends, it is the last good one and the gap is reported.
+#pragma once
+
+#include <cmath>
+
+#include "algo/polytope.h"
+#include "algo/trace.h"
+
+namespace gjkdbg {
+
+template <class S>
+struct EpaOptions {
+  S tolerance = S(1e-12);  ///< relative gap of the bounds at which the loop ends
+  int max_iterations = 256;
+};
+
+template <int D, class S>
+struct EpaResult {
+  EpaStatus status = EpaStatus::converged;
+  int iterations = 0;
+  int face = -1;                              ///< number of the answering face; -1 when flat
+  Vector<D, S> normal = Vector<D, S>::Zero();  ///< unit, out of the difference: from body 0 towards body 1
+  S depth = 0;             ///< of the cores: support along `normal`; negative when `separated`
+  S lower_bound = 0;       ///< of the cores' depth
+  S upper_bound = 0;
+  Vector<D, S> point_a = Vector<D, S>::Zero(), point_b = Vector<D, S>::Zero();  ///< core points whose difference is nearest
+};
+
+/// Storage that may be kept from one call to the next.
+template <int D, class S>
+struct EpaWorkspace {
+  Polytope<D, S> polytope;
+  std::vector<int> numbers;                                    ///< scratch for the trace
+  std::vector<FaceEvent<Vector<D, S>, Viewed>> face_events;
+  std::vector<std::array<int, D>> face_vertices;
+  std::vector<Edge> edges;
+};
+
+template <class Difference, class Trace>
+class Epa {
+  static constexpr int D = Difference::D;
+  using S = typename Difference::S;
+  using V = Vector<D, S>;
+  using Point = SupportPoint<D, S>;
+  using Face = PolytopeFace<D, S>;
+
+ public:
+  Epa(Difference& difference, const EpaOptions<S>& options, EpaWorkspace<D, S>& workspace, Trace& trace)
+      : difference_(difference), options_(options), workspace_(workspace), polytope_(workspace.polytope), trace_(trace),
+        floor_(difference.rounding_floor()) {}
+
+  EpaResult<D, S> run(const Simplex<D, S>& simplex) {
+    polytope_.clear();
+    if (!seed(simplex)) return finish(EpaStatus::flat);
+    if (!enclose_origin()) return finish(EpaStatus::separated);
+    trace_seeded();
+    return finish(expand());
+  }
+
+ private:
+  // --- The loop -----------------------------------------------------------------------------------------------
+
+  EpaStatus expand() {
+    while (true) {
+      const int number = polytope_.nearest();
+      const Face face = polytope_.faces()[number];
+      trace_(FaceChosen<V, Viewed>{result_.iterations, number, face.normal, face.distance});
+      if (result_.iterations >= options_.max_iterations) return limit_reached(number, face);
+      ++result_.iterations;
+      const Point point = query(face.normal, Phase::epa);
+      const S height = face.normal.dot(point.w);
+      offer(number, face, height);
+      if (height < 0 && face.distance < 0) return EpaStatus::separated;
+      if (best_height_ - face.distance <= options_.tolerance * best_height_ + floor_) return EpaStatus::converged;
+      if (!polytope_.grow(polytope_.add_point(point), number)) return EpaStatus::stalled;
+      trace_grown(point.vertex);
+    }
+  }
+
+  /// The answer at the limit: the best direction so far; with none yet, the nearest face's.
+  EpaStatus limit_reached(int number, const Face& face) {
+    if (result_.face < 0) offer(number, face, face.normal.dot(query(face.normal, Phase::epa).w));
+    return EpaStatus::iteration_limit;
+  }
+
+  /// Keeps the direction with the least support: the depth is at most `height`. The nearest face bounds it from below.
+  void offer(int number, const Face& face, S height) {
+    lower_ = face.distance;
+    if (result_.face >= 0 && !(height < best_height_)) return;
+    best_height_ = height;
+    best_vertices_ = face.vertices;
+    result_.face = number;
+    result_.normal = face.normal;
+  }
+
+  Point query(const V& d, Phase phase) {
+    const Point point = difference_.support(d);
+    if constexpr (traced<Trace>)
+      trace_(SupportQueried<V, Viewed>{result_.iterations, phase, d, point.vertex, point.a, point.b, point.w});
+    return point;
+  }
+
+  // --- The start: D + 1 points that span the space -------------------------------------------------------------
+  // GJK ends with the origin in a simplex of rank 0 to D. Its vertices are taken as far as they add a dimension; what is
+  // missing is asked for across what is there, both ways, and the farther point taken. When neither leaves it, A - B is
+  // flat there: depth 0.
+
+  bool seed(const Simplex<D, S>& simplex) {
+    std::array<int, D + 1> chosen{};
+    chosen[0] = polytope_.add_point(simplex.points[0]);
+    for (int rank = 0; rank < D; ++rank) {
+      const int point = next_point(simplex, chosen, rank);
+      if (point < 0) return false;
+      chosen[rank + 1] = point;
+    }
+    polytope_.start(chosen);
+    return true;
+  }
+
+  /// A point farthest off the hull of the first `rank` + 1 chosen ones: of the simplex, else of new supports.
+  int next_point(const Simplex<D, S>& simplex, const std::array<int, D + 1>& chosen, int rank) {
+    S best = 64 * floor_;
+    int from = -1;
+    for (int i = 1; i < simplex.size; ++i)
+      if (const S off = off_hull(simplex.points[i].w, chosen, rank); off > best) best = off, from = i;
+    if (from >= 0) return polytope_.add_point(simplex.points[from]);
+    best = floor_, best_height_ = std::numeric_limits<S>::infinity();
+    Point farthest;
+    flat_normal_ = across(chosen, rank);
+    for (const V& axis : directions_across(chosen, rank)) {
+      for (const V& d : {V(axis), V(-axis)}) {
+        const Point point = query(d, Phase::seed);
+        if (const S off = off_hull(point.w, chosen, rank); off > best) best = off, farthest = point;
+        note_flat(d, point.w);
+      }
+    }
+    return farthest.vertex < 0 ? -1 : polytope_.add_point(farthest);
+  }
+
+  const V& at(int i) const { return polytope_.points()[i].w; }
+
+  /// Distance of w from the point, line or plane through the chosen points.
+  S off_hull(const V& w, const std::array<int, D + 1>& chosen, int rank) const {
+    const V x = w - at(chosen[0]);
+    if (rank == 0) return x.norm();
+    const V e = (at(chosen[1]) - at(chosen[0])).normalized();
+    if (rank == 1) return (x - e * e.dot(x)).norm();
+    if constexpr (D == 3) return std::abs(x.dot(plane_normal(chosen)));
+    return 0;
+  }
+
+  V plane_normal(const std::array<int, D + 1>& chosen) const {
+    if constexpr (D == 3) {
+      using W = WideVector<S>;
+      const W n = (W(at(chosen[1])) - W(at(chosen[0]))).cross(W(at(chosen[2])) - W(at(chosen[0])));
+      return n.template rounded<3>().stableNormalized();
+    }
+    return V::Zero();
+  }
+
+  /// A unit direction across the chosen points.
+  V across(const std::array<int, D + 1>& chosen, int rank) const {
+    if constexpr (D == 3)
+      if (rank == 2) return plane_normal(chosen);
+    if (rank == 0) return V::Unit(0);
+    const V e = (at(chosen[1]) - at(chosen[0])).normalized();
+    if constexpr (D == 2) return V(e[1], -e[0]);
+    int least = 0;
+    e.cwiseAbs().minCoeff(&least);
+    V n = V::Unit(least) - e * e[least];
+    return n.normalized();
+  }
+
+  /// Directions that span what is missing.
+  std::vector<V> directions_across(const std::array<int, D + 1>& chosen, int rank) const {
+    if (rank == 0) {
+      std::vector<V> axes;
+      for (int i = 0; i < D; ++i) axes.push_back(V::Unit(i));
+      return axes;
+    }
+    const V n = across(chosen, rank);
+    if constexpr (D == 3) {
+      if (rank == 1) {
+        const V e = (at(chosen[1]) - at(chosen[0])).normalized();
+        return {n, e.cross(n)};
+      }
+    }
+    return {n};
+  }
+
+  /// Should A - B turn out flat, the way out is across it, to the side where its support is least.
+  void note_flat(const V& d, const V& w) {
+    const S side = d.dot(flat_normal_);
+    if (std::abs(side) < S(0.5)) return;
+    const S height = d.dot(w);
+    if (best_height_ > height) best_height_ = height, result_.normal = d;
+  }
+
+  /// Grows the start until no face has the origin outside. False when a support plane proves that it lies outside A - B.
+  bool enclose_origin() {
+    result_.face = -1, best_height_ = std::numeric_limits<S>::infinity();
+    for (int i = 0; i < options_.max_iterations; ++i) {
+      const int number = polytope_.nearest();
+      const Face face = polytope_.faces()[number];
+      if (face.distance >= -floor_) return true;
+      const Point point = query(face.normal, Phase::seed);
+      const S height = face.normal.dot(point.w);
+      if (height < 0 && height - face.distance <= floor_) {
+        offer(number, face, height);
+        return false;
+      }
+      if (!polytope_.grow(polytope_.add_point(point), number)) return true;
+    }
+    return true;
+  }
+
+  // --- The end ------------------------------------------------------------------------------------------------
+
+  EpaResult<D, S> finish(EpaStatus status) {
+    result_.status = status;
+    if (status == EpaStatus::flat) best_height_ = lower_ = 0;
+    result_.depth = best_height_ == 0 ? S(0) : best_height_;
+    result_.lower_bound = lower_ - floor_;
+    result_.upper_bound = best_height_ + floor_;
+    if (result_.face >= 0) set_points();
+    const double radius = static_cast<double>(difference_.radius());
+    trace_(EpaEnded<V, Viewed>{result_.iterations, status, result_.face, result_.normal, result_.depth + radius});
+    return result_;
+  }
+
+  void set_points() {
+    const auto weights = polytope_.weights(best_vertices_, result_.normal);
+    for (int i = 0; i < D; ++i) {
+      result_.point_a += weights[i] * polytope_.points()[best_vertices_[i]].a;
+      result_.point_b += weights[i] * polytope_.points()[best_vertices_[i]].b;
+    }
+  }
+
+  // --- The trace: indices into the polytope's points become vertex numbers ---------------------------------------
+
+  int vertex_number(int i) const { return polytope_.points()[i].vertex; }
+
+  void describe(const std::vector<int>& faces) {
+    auto& events = workspace_.face_events;
+    auto& vertices = workspace_.face_vertices;
+    events.clear();
+    vertices.resize(faces.size());
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      const Face& face = polytope_.faces()[faces[i]];
+      for (int k = 0; k < D; ++k) vertices[i][k] = vertex_number(face.vertices[k]);
+      events.push_back({faces[i], std::span<const int>(vertices[i]), face.normal, face.distance});
+    }
+  }
+
+  void trace_seeded() {
+    if constexpr (traced<Trace>) {
+      std::vector<int> faces;
+      auto& vertices = workspace_.numbers;
+      vertices.clear();
+      for (std::size_t f = 0; f < polytope_.faces().size(); ++f) {
+        if (polytope_.faces()[f].removed) continue;
+        faces.push_back(static_cast<int>(f));
+        for (const int i : polytope_.faces()[f].vertices)
+          if (std::find(vertices.begin(), vertices.end(), vertex_number(i)) == vertices.end()) vertices.push_back(vertex_number(i));
+      }
+      describe(faces);
+      trace_(PolytopeSeeded<V, Viewed>{vertices, workspace_.face_events});
+    }
+  }
+
+  void trace_grown(int vertex) {
+    if constexpr (traced<Trace>) {
+      const Growth& growth = polytope_.growth();
+      auto& edges = workspace_.edges;
+      edges.clear();
+      for (const auto& e : growth.horizon) edges.push_back({vertex_number(e[0]), vertex_number(e[1])});
+      describe(growth.added);
+      const double radius = static_cast<double>(difference_.radius());
+      const double lower = static_cast<double>(polytope_.faces()[polytope_.nearest()].distance - floor_);
+      trace_(PolytopeGrown<V, Viewed>{result_.iterations, vertex, growth.removed, edges, workspace_.face_events, lower + radius,
+                                      static_cast<double>(best_height_ + floor_) + radius});
+    }
+  }
+
+  Difference& difference_;
+  const EpaOptions<S>& options_;
+  EpaWorkspace<D, S>& workspace_;
+  Polytope<D, S>& polytope_;
+  Trace& trace_;
+  const S floor_;
+  EpaResult<D, S> result_;
+  S best_height_ = std::numeric_limits<S>::infinity();
+  S lower_ = 0;
+  std::array<int, D> best_vertices_{};
+  V flat_normal_ = V::Zero();
+};
+
+/// Runs EPA from the simplex GJK ended with: the origin lies in its hull, to rounding. Frame of body 0.
+template <class Difference, class Trace>
+auto epa(Difference& difference, const Simplex<Difference::D, typename Difference::S>& simplex,
+         const EpaOptions<typename Difference::S>& options, EpaWorkspace<Difference::D, typename Difference::S>& workspace,
+         Trace& trace) {
+  return Epa<Difference, Trace>(difference, options, workspace, trace).run(simplex);
+}
+
+}  // namespace gjkdbg

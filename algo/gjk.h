@@ -1,0 +1,203 @@
+// GJK, distance form: how far the difference A - B is from the origin.
+//
+// Gilbert, Johnson, Keerthi 1988; stopping rule and monotone loop after van den Bergen 1999, with the bounds as in
+// Montaut et al. 2024 ("GJK++"), section III. One loop:
+//   v = closest point of the simplex to the origin       |v| is an upper bound of the distance
+//   w = support(-v)                                      v.w / |v| is a lower one: all of A - B lies beyond that plane
+//   stop when the bounds meet; else add w, cut the simplex down to the feature nearest the origin
+// Deviations: |v| must fall in every step; where it does not, the simplex is judged again in twice the precision and,
+// if that does not help, the loop ends as `stalled` with honest bounds. Bounds include the rounding floor.
+// The sub-algorithm is a policy: ClosestFeature<D, S> closest(const V* w, int size).
+#pragma once
+
+#include <limits>
+
+#include "algo/signed_volumes.h"
+#include "algo/simplex.h"
+#include "algo/trace.h"
+
+namespace gjkdbg {
+
+/// What the caller needs to know; the loop ends as soon as it is known.
+enum class GjkGoal {
+  intersect,       ///< whether the bodies overlap: ends at the first proof
+  distance,        ///< the distance, or that the bodies overlap
+  signed_distance  ///< the distance of the cores, however the radii compare with it
+};
+
+template <int D, class S>
+struct GjkOptions {
+  GjkGoal goal = GjkGoal::signed_distance;
+  S tolerance = S(1e-12);  ///< relative gap of the bounds at which the loop ends
+  int max_iterations = 256;
+  Vector<D, S> direction = Vector<D, S>::Unit(0);  ///< first search direction, not zero
+};
+
+template <int D, class S>
+struct GjkResult {
+  GjkStatus status = GjkStatus::converged;
+  int iterations = 0;
+  Simplex<D, S> simplex;                   ///< the feature nearest the origin; its weights are valid unless enclosed
+  Vector<D, S> v = Vector<D, S>::Zero();   ///< closest point of the cores' difference (zero when enclosed)
+  S distance = 0;                          ///< |v|
+  S lower_bound = -std::numeric_limits<S>::infinity();  ///< of the signed distance of the cores
+  S upper_bound = std::numeric_limits<S>::infinity();
+
+  bool cores_overlap() const { return status == GjkStatus::enclosed || status == GjkStatus::touching; }
+};
+
+template <class Difference, class SubAlgorithm, class Trace>
+class Gjk {
+  static constexpr int D = Difference::D;
+  using S = typename Difference::S;
+  using V = Vector<D, S>;
+  using Point = SupportPoint<D, S>;
+  using Feature = ClosestFeature<D, S>;
+
+ public:
+  Gjk(Difference& difference, const GjkOptions<D, S>& options, Trace& trace)
+      : difference_(difference), options_(options), trace_(trace), floor_(difference.rounding_floor()) {}
+
+  GjkResult<D, S> run() {
+    trace_(GjkBegan<V, Viewed>{options_.direction});
+    add(options_.direction, options_.direction.norm());
+    reduce();
+    while (!ended()) {
+      ++result_.iterations;
+      const V d = -result_.v;
+      const Point point = query(d, result_.distance);
+      if (proven(point)) break;
+      result_.simplex.add(point);
+      if (!reduce() && !reduce_again()) return finish(GjkStatus::stalled);
+    }
+    return finish(status_);
+  }
+
+ private:
+  /// Asks for the support along d and takes its plane for the lower bound: all x of A - B have d.x <= d.w, so the
+  /// signed distance is at least -d.w / |d|.
+  Point query(const V& d, S length) {
+    const Point point = difference_.support(d);
+    if constexpr (traced<Trace>)
+      trace_(SupportQueried<V, Viewed>{result_.iterations, Phase::gjk, d, point.vertex, point.a, point.b, point.w});
+    plane_ = -d.dot(point.w) / length;
+    result_.lower_bound = std::max(result_.lower_bound, plane_ - floor_);
+    return point;
+  }
+
+  void add(const V& d, S length) { result_.simplex.add(query(d, length)); }
+
+  /// Cuts the simplex down to the feature nearest the origin; false when that is no nearer than before (NaN included).
+  bool reduce() {
+    std::array<V, D + 1> w;
+    for (int i = 0; i < result_.simplex.size; ++i) w[i] = result_.simplex.points[i].w;
+    const Feature feature = SubAlgorithm::closest(w.data(), result_.simplex.size);
+    return accept(feature);
+  }
+
+  /// The second opinion, in twice the precision.
+  bool reduce_again() {
+    std::array<V, D + 1> w;
+    for (int i = 0; i < result_.simplex.size; ++i) w[i] = result_.simplex.points[i].w;
+    return accept(WideClosestPoint<D, S>::of_boundary(w.data(), result_.simplex.size));
+  }
+
+  /// |v| must fall. Where the plane still turns but |v| falls by less than it rounds (a nearly flat part of A - B met at
+  /// a grazing angle), a few steps on the spot are allowed.
+  bool accept(const Feature& feature) {
+    if (!feature.enclosed && !(feature.v_squared < v_squared_)) {
+      constexpr S rounding = 8 * std::numeric_limits<S>::epsilon();
+      if (!(feature.v_squared <= v_squared_ * (1 + rounding)) || ++steps_on_the_spot_ > 8) return false;
+    }
+    if constexpr (traced<Trace>) before_ = vertex_numbers();
+    result_.simplex.reduce_to(feature);
+    result_.v = feature.v;
+    v_squared_ = feature.v_squared;
+    result_.distance = std::sqrt(v_squared_);
+    result_.upper_bound = result_.distance + floor_;
+    enclosed_ = feature.enclosed;
+    if constexpr (traced<Trace>) trace_reduction();
+    return true;
+  }
+
+  /// Whether the simplex alone settles the matter.
+  bool ended() {
+    if (enclosed_) return end_as(GjkStatus::enclosed);
+    if (result_.distance <= floor_) return end_as(GjkStatus::touching);
+    if (options_.goal != GjkGoal::signed_distance && result_.upper_bound <= difference_.radius())
+      return end_as(GjkStatus::within_radius);
+    if (result_.iterations >= options_.max_iterations) return end_as(GjkStatus::iteration_limit);
+    return false;
+  }
+
+  /// Whether the newest support point settles it. The plane must be the one across v itself, not the best one met: then
+  /// the normal -v / |v| is certified as well as the distance. A point met before cannot bring anything new.
+  bool proven(const Point& point) {
+    if (options_.goal == GjkGoal::intersect && result_.lower_bound > difference_.radius())
+      return end_as(GjkStatus::separated);
+    if (result_.distance - plane_ <= options_.tolerance * result_.distance + floor_) return end_as(GjkStatus::converged);
+    if (result_.simplex.holds(point.w)) return end_as(GjkStatus::stalled);
+    return false;
+  }
+
+  bool end_as(GjkStatus status) {
+    status_ = status;
+    return true;
+  }
+
+  GjkResult<D, S> finish(GjkStatus status) {
+    result_.status = status;
+    const double radius = static_cast<double>(difference_.radius());
+    trace_(GjkEnded<V, Viewed>{result_.iterations, status, result_.lower_bound - radius, result_.upper_bound - radius});
+    return result_;
+  }
+
+  struct Numbers {
+    std::array<int, D + 1> vertex{};
+    int size = 0;
+    std::span<const int> view() const { return {vertex.data(), static_cast<std::size_t>(size)}; }
+  };
+
+  /// Vertex numbers, newest first. `order_` remembers the way there.
+  Numbers vertex_numbers() {
+    const auto& simplex = result_.simplex;
+    Numbers numbers;
+    numbers.size = simplex.size;
+    for (int i = 0; i < simplex.size; ++i) order_[i] = i;
+    std::sort(order_.begin(), order_.begin() + simplex.size,
+              [&](int i, int j) { return simplex.points[i].vertex > simplex.points[j].vertex; });
+    for (int i = 0; i < simplex.size; ++i) numbers.vertex[i] = simplex.points[order_[i]].vertex;
+    return numbers;
+  }
+
+  void trace_reduction() {
+    const Numbers region = vertex_numbers();
+    std::array<double, D + 1> weights{};
+    for (int i = 0; i < region.size; ++i) weights[i] = static_cast<double>(result_.simplex.weights[order_[i]]);
+    const double radius = static_cast<double>(difference_.radius());
+    trace_(SimplexReduced<V, Viewed>{result_.iterations, before_.view(), region.view(),
+                                     std::span<const double>(weights.data(), region.size), result_.v,
+                                     result_.lower_bound - radius, result_.upper_bound - radius});
+  }
+
+  Difference& difference_;
+  const GjkOptions<D, S>& options_;
+  Trace& trace_;
+  const S floor_;
+  GjkResult<D, S> result_;
+  S v_squared_ = std::numeric_limits<S>::infinity();
+  S plane_ = 0;
+  bool enclosed_ = false;
+  int steps_on_the_spot_ = 0;
+  GjkStatus status_ = GjkStatus::converged;
+  std::array<int, D + 1> order_{};
+  Numbers before_;
+};
+
+/// Runs GJK on a difference. Directions, points and v are in the frame of body 0.
+template <class SubAlgorithm, class Difference, class Trace>
+auto gjk(Difference& difference, const GjkOptions<Difference::D, typename Difference::S>& options, Trace& trace) {
+  return Gjk<Difference, SubAlgorithm, Trace>(difference, options, trace).run();
+}
+
+}  // namespace gjkdbg

@@ -1,0 +1,294 @@
+// The expanding polytope: a convex hull in D dimensions that grows by one vertex at a time.
+//
+// In 3D the faces are triangles, in 2D edges, in 1D the two end points. A new vertex p takes away every face it sees
+// and closes the hole with faces from the horizon to p; a single face is never split, which would leave a dent:
+//
+//          p                 f, g  seen by p: removed
+//        /   \               a-b-c-d  the horizon, each edge as the removed side had it
+//       /     \              new faces (a b p), (b c p), …
+//    a-----b-----c
+//     \  f | g  /            "Sees" is weak: faces in whose plane p lies go too. So p, when it lies on the line
+//      \   |   /             of an edge, never closes a face without area; and as the side of a plane
+//       \  |  /              is decided by robust orientation, the faces p sees always form one
+//          d                 disc with one loop around it, as for the exact hull.
+//
+// Faces are numbered in the order they are added, and a number is never used again.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "algo/orientation.h"
+#include "algo/simplex.h"
+
+namespace gjkdbg {
+
+template <int D, class S>
+struct PolytopeFace {
+  std::array<int, D> vertices;     ///< indices into points(); counter-clockwise seen from outside
+  std::array<int, D> neighbours;   ///< 3D: across edge (vertices[i], vertices[i+1]); 2D: before, after; 1D: unused
+  Vector<D, S> normal;             ///< unit, outwards; zero for a face without area
+  S distance;                      ///< of the plane from the origin, negative: the origin is outside
+  bool removed = false;
+};
+
+/// What one growth did; faces as numbers, the horizon as indices into points().
+struct Growth {
+  std::vector<int> removed, added;
+  std::vector<std::array<int, 2>> horizon;
+};
+
+template <int D, class S>
+class Polytope {
+ public:
+  using V = Vector<D, S>;
+  using Point = SupportPoint<D, S>;
+  using Face = PolytopeFace<D, S>;
+
+  void clear() { points_.clear(), faces_.clear(), heap_.clear(); }
+  int add_point(const Point& point) {
+    points_.push_back(point);
+    return static_cast<int>(points_.size()) - 1;
+  }
+
+  /// Starts from D + 1 points that span the space (any orientation).
+  void start(std::array<int, D + 1> simplex);
+
+  /// The face with the smallest signed distance; -1 when there is none.
+  int nearest() {
+    while (!heap_.empty() && faces_[heap_.front().face].removed) pop();
+    return heap_.empty() ? -1 : heap_.front().face;
+  }
+
+  /// Grows by point p, which must lie outside `seen`. False, and nothing has changed, when no hull with one horizon comes of it.
+  bool grow(int p, int seen);
+  const Growth& growth() const { return growth_; }  ///< of the last successful grow
+
+  const std::vector<Point>& points() const { return points_; }
+  const std::vector<Face>& faces() const { return faces_; }
+
+  /// Weights of the face's vertices with which they make its point nearest the origin (the projection; clamped to the face).
+  std::array<S, D> weights(const std::array<int, D>& vertices, const V& normal) const;
+
+ private:
+  struct HeapEntry {
+    S distance;
+    int face;
+    bool operator<(const HeapEntry& o) const { return distance > o.distance || (distance == o.distance && face > o.face); }
+  };
+
+  const V& at(int i) const { return points_[i].w; }
+  void pop() {
+    std::pop_heap(heap_.begin(), heap_.end());
+    heap_.pop_back();
+  }
+  int add_face(const std::array<int, D>& vertices, const std::array<int, D>& neighbours);
+  void set_plane(Face& face) const;
+  bool sees(int p, const Face& face) const;
+  void find_seen(int p, int seen);
+  bool order_horizon();
+  void close(int p);
+
+  std::vector<Point> points_;
+  std::vector<Face> faces_;
+  std::vector<HeapEntry> heap_;
+  Growth growth_;
+  struct Ridge {
+    std::array<int, 2> edge;  ///< 3D: from, to as the removed face had it; 2D: edge[0] is the shared vertex
+    int outside;              ///< the face that stays
+  };
+  std::vector<Ridge> horizon_;
+  std::vector<char> marked_;
+};
+
+template <int D, class S>
+bool Polytope<D, S>::sees(int p, const Face& face) const {
+  if constexpr (D == 3) return orientation<S>(at(face.vertices[0]), at(face.vertices[1]), at(face.vertices[2]), at(p)) >= 0;
+  if constexpr (D == 2) return orientation<S>(at(face.vertices[0]), at(face.vertices[1]), at(p)) <= 0;
+  if constexpr (D == 1) return face.normal[0] * (at(p)[0] - at(face.vertices[0])[0]) >= 0;
+}
+
+/// 3D: n = (b - a) x (c - a); a face too thin for plain arithmetic gets its plane in twice the precision.
+template <int D, class S>
+void Polytope<D, S>::set_plane(Face& face) const {
+  const V& a = at(face.vertices[0]);
+  if constexpr (D == 1) {
+    face.distance = face.normal[0] * a[0];
+  } else if constexpr (D == 2) {
+    const V e = at(face.vertices[1]) - a;
+    const S length = e.norm();
+    face.normal = length > 0 ? V(V(e[1], -e[0]) / length) : V(V::Zero());
+    const V& b = at(face.vertices[1]);
+    face.distance = length > 0 ? face.normal.dot(a.dot(a) < b.dot(b) ? a : b) : std::numeric_limits<S>::infinity();
+  } else {
+    const V &b = at(face.vertices[1]), &c = at(face.vertices[2]);
+    const V ab = b - a, bc = c - b, ca = a - c;
+    const S sa = ab.dot(ab), sb = bc.dot(bc), sc = ca.dot(ca);
+    V n = sa <= sb && sc <= sb ? V(ca.cross(ab)) : sa <= sc && sb <= sc ? V(ab.cross(bc)) : V(bc.cross(ca));
+    S length = n.norm();
+    const S da = a.dot(a), db = b.dot(b), dc = c.dot(c);
+    const V& near = da <= db ? (da <= dc ? a : c) : (db <= dc ? b : c);
+    constexpr S thin = S(1e-3);  // sine of the angle below which the normal is worth less than 1e-13 in double
+    const S two_shortest = std::min({sa * sb, sb * sc, sc * sa});
+    if (length * length > thin * thin * two_shortest) {
+      face.normal = n / length;
+      face.distance = face.normal.dot(near);
+      return;
+    }
+    using W = WideVector<S>;
+    const W exact = (W(b) - W(a)).cross(W(c) - W(a));
+    const S scale = exact.template rounded<3>().cwiseAbs().maxCoeff();
+    n = exact.template rounded<3>() / (scale > 0 ? scale : S(1));
+    length = n.norm();
+    face.normal = length > 0 ? V(n / length) : V(V::Zero());
+    const Wide<S> along = exact.dot(W(near));
+    face.distance = length > 0 ? static_cast<S>(double(along)) / (scale * length) : std::numeric_limits<S>::infinity();
+  }
+}
+
+template <int D, class S>
+int Polytope<D, S>::add_face(const std::array<int, D>& vertices, const std::array<int, D>& neighbours) {
+  Face face{};
+  face.vertices = vertices, face.neighbours = neighbours;
+  const int number = static_cast<int>(faces_.size());
+  if constexpr (D == 1) face.normal[0] = neighbours[0] > 0 ? S(1) : S(-1);
+  set_plane(face);
+  faces_.push_back(face);
+  heap_.push_back({face.distance, number});
+  std::push_heap(heap_.begin(), heap_.end());
+  return number;
+}
+
+template <int D, class S>
+void Polytope<D, S>::start(std::array<int, D + 1> s) {
+  if constexpr (D == 1) {
+    if (at(s[0])[0] > at(s[1])[0]) std::swap(s[0], s[1]);
+    add_face({s[0]}, {-1});  // 1D: the sign of `neighbours` is the face's side
+    add_face({s[1]}, {1});
+  } else if constexpr (D == 2) {
+    if (orientation<S>(at(s[0]), at(s[1]), at(s[2])) < 0) std::swap(s[1], s[2]);
+    for (int i = 0; i < 3; ++i) add_face({s[i], s[(i + 1) % 3]}, {(i + 2) % 3, (i + 1) % 3});
+  } else {
+    // Seen from outside, 0 2 1 is counter-clockwise when 3 lies on the side from which 0 1 2 is.
+    if (orientation<S>(at(s[0]), at(s[1]), at(s[2]), at(s[3])) < 0) std::swap(s[1], s[2]);
+    add_face({s[0], s[2], s[1]}, {3, 2, 1});
+    add_face({s[0], s[1], s[3]}, {0, 2, 3});
+    add_face({s[1], s[2], s[3]}, {0, 3, 1});
+    add_face({s[2], s[0], s[3]}, {0, 1, 2});
+  }
+}
+
+/// Marks the connected faces that p sees, and collects the ridges around them.
+template <int D, class S>
+void Polytope<D, S>::find_seen(int p, int seen) {
+  growth_.removed.assign(1, seen);
+  horizon_.clear();
+  marked_.resize(faces_.size(), 0);
+  marked_[seen] = 1;
+  if constexpr (D == 1) return;
+  for (std::size_t next = 0; next < growth_.removed.size(); ++next) {
+    const int number = growth_.removed[next];
+    for (int i = 0; i < D; ++i) {
+      const int other = faces_[number].neighbours[i];
+      if (marked_[other]) continue;
+      if (sees(p, faces_[other])) {
+        marked_[other] = 1;
+        growth_.removed.push_back(other);
+      } else {
+        const auto& v = faces_[number].vertices;
+        horizon_.push_back({{v[i], v[(i + 1) % D]}, other});
+      }
+    }
+  }
+}
+
+/// Puts the ridges in order; false unless they are one closed loop (2D: exactly two ends) that leaves something standing.
+template <int D, class S>
+bool Polytope<D, S>::order_horizon() {
+  if constexpr (D == 1) return true;
+  if constexpr (D == 2) {
+    if (horizon_.size() != 2) return false;
+    const auto starts = [&](const Ridge& r) { return faces_[r.outside].vertices[1] == r.edge[0]; };
+    if (starts(horizon_[0]) == starts(horizon_[1])) return false;
+    if (!starts(horizon_[0])) std::swap(horizon_[0], horizon_[1]);
+    return true;
+  }
+  if (horizon_.size() < 3) return false;
+  for (std::size_t i = 0; i + 1 < horizon_.size(); ++i) {
+    const int to = horizon_[i].edge[1];
+    const auto next = std::find_if(horizon_.begin() + i + 1, horizon_.end(), [&](const Ridge& r) { return r.edge[0] == to; });
+    if (next == horizon_.end()) return false;
+    std::swap(horizon_[i + 1], *next);
+  }
+  if (horizon_.back().edge[1] != horizon_.front().edge[0]) return false;
+  std::vector<std::array<int, 2>>& edges = growth_.horizon;
+  edges.clear();
+  for (const Ridge& r : horizon_) {
+    for (const auto& e : edges)
+      if (e[0] == r.edge[0]) return false;  // the loop touches itself
+    edges.push_back(r.edge);
+  }
+  return true;
+}
+
+template <int D, class S>
+void Polytope<D, S>::close(int p) {
+  growth_.added.clear();
+  const int first = static_cast<int>(faces_.size()), count = static_cast<int>(horizon_.size());
+  if constexpr (D == 1) {
+    growth_.horizon.clear();
+    growth_.added.push_back(add_face({p}, faces_[growth_.removed[0]].neighbours));
+  } else if constexpr (D == 2) {
+    const Ridge &start = horizon_[0], &end = horizon_[1];
+    growth_.horizon.assign(1, {start.edge[0], end.edge[0]});
+    growth_.added = {add_face({start.edge[0], p}, {start.outside, first + 1}),
+                     add_face({p, end.edge[0]}, {first, end.outside})};
+    faces_[start.outside].neighbours[1] = first;
+    faces_[end.outside].neighbours[0] = first + 1;
+  } else {
+    for (int k = 0; k < count; ++k) {
+      const Ridge& r = horizon_[k];
+      const int after = first + (k + 1) % count, before = first + (k + count - 1) % count;
+      growth_.added.push_back(add_face({r.edge[0], r.edge[1], p}, {r.outside, after, before}));
+      auto& outside = faces_[r.outside];
+      for (int i = 0; i < 3; ++i)
+        if (outside.vertices[i] == r.edge[1] && outside.vertices[(i + 1) % 3] == r.edge[0])
+          outside.neighbours[i] = first + k;
+    }
+  }
+}
+
+template <int D, class S>
+bool Polytope<D, S>::grow(int p, int seen) {
+  find_seen(p, seen);
+  const bool closes = order_horizon();
+  for (const int number : growth_.removed) marked_[number] = 0;
+  if (!closes) return false;
+  for (const int number : growth_.removed) faces_[number].removed = true;
+  close(p);
+  return true;
+}
+
+/// 3D: the weight of a vertex is the area of the opposite edge with the projected origin, along the normal: n . (w_j x w_k).
+template <int D, class S>
+std::array<S, D> Polytope<D, S>::weights(const std::array<int, D>& v, const V& normal) const {
+  std::array<S, D> weight{};
+  weight[0] = 1;
+  if constexpr (D == 2) {
+    const V e = at(v[1]) - at(v[0]);
+    const S length = e.dot(e), t = length > 0 ? -at(v[0]).dot(e) / length : S(0);
+    weight[1] = std::clamp(t, S(0), S(1)), weight[0] = 1 - weight[1];
+  } else if constexpr (D == 3) {
+    using W = WideVector<S>;
+    const W n(normal), a(at(v[0])), b(at(v[1])), c(at(v[2]));
+    const auto area = [&](const W& p, const W& q) { return std::max(S(0), static_cast<S>(double(n.dot(p.cross(q - p))))); };
+    weight = {area(b, c), area(c, a), area(a, b)};
+    const S sum = weight[0] + weight[1] + weight[2];
+    if (!(sum > 0)) return {1, 0, 0};
+    for (S& x : weight) x /= sum;
+  }
+  return weight;
+}
+
+}  // namespace gjkdbg

@@ -1,0 +1,33 @@
+// The answer to a query, in world coordinates.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "shapes/vector.h"
+
+namespace gjkdbg {
+
+struct ContactPoint {
+  AnyVector point_a, point_b;  ///< on body 0 and body 1, world frame
+  double depth = 0;            ///< >= 0: how far point_b lies behind point_a along the normal
+};
+
+/// What is unset was not asked for, or does not exist (the normal of an overlapping `distance` query).
+/// `witness_b - witness_a = signed_distance * normal`; the bounds enclose `signed_distance` (of a `distance`
+/// query: max(0, signed distance)).
+struct Result {
+  bool intersecting = false;
+  std::optional<double> signed_distance;
+  std::optional<AnyVector> normal;  ///< unit, from body 0 towards body 1
+  std::optional<AnyVector> witness_a, witness_b;
+  std::optional<double> lower_bound, upper_bound;
+  std::optional<std::vector<ContactPoint>> contacts;
+  std::string status;  ///< of the phase that gave the answer
+  int iterations = 0;
+  int support_calls = 0;
+};
+
+}  // namespace gjkdbg

@@ -1,0 +1,68 @@
+#include <cmath>
+#include <string>
+
+#include "algo/solve.h"
+#include "shapes/error.h"
+
+namespace gjkdbg {
+namespace {
+
+bool curved(const Shape& shape) {
+  if (const Sum* sum = std::get_if<Sum>(&shape.geometry)) return curved(*sum->first) || curved(*sum->second);
+  return std::holds_alternative<Ellipsoid>(shape.geometry) || std::holds_alternative<Cylinder>(shape.geometry) ||
+         std::holds_alternative<Cone>(shape.geometry);
+}
+
+/// Polytopes are solved to the rounding floor in finitely many steps; curved pairs converge step by step, and EPA's
+/// steps on them are dear.
+double default_tolerance(const Scene& scene, const Settings& s) {
+  bool round = false;
+  for (const Body& body : scene.bodies) round = round || curved(body.shape);
+  if (s.scalar == Scalar::float_precision) return round ? 1e-4 : 1e-6;
+  return round ? 1e-10 : 1e-12;
+}
+
+[[noreturn]] void refuse(const std::string& message, const char* where) { throw Error("unsupported-method", message, where); }
+
+/// What the contract names and this version does not have yet.
+void refuse_missing(const Settings& s) {
+  const std::string name(method_names[static_cast<std::size_t>(s.name)]);
+  if (s.name != MethodName::gjk && s.name != MethodName::gjk_boolean) refuse("method \"" + name + "\" is not available yet", "/method/name");
+  if (s.closest_point != ClosestPoint::signed_volumes)
+    refuse("closest_point \"" + std::string(closest_point_names[static_cast<std::size_t>(s.closest_point)]) + "\" is not available yet",
+           "/method/closest_point");
+  if (s.penetration == Penetration::mpr) refuse("penetration \"mpr\" is not available yet", "/method/penetration");
+}
+
+void check_numbers(const Settings& s, int dimension) {
+  if (!(s.tolerance > 0 && s.tolerance < 1)) throw Error("out-of-range", "tolerance must lie between 0 and 1", "/method/tolerance");
+  if (s.max_iterations < 1 || s.max_iterations > 1000000)
+    throw Error("out-of-range", "max_iterations must lie between 1 and 1000000", "/method/max_iterations");
+  if (!s.initial_direction) return;
+  const AnyVector& d = *s.initial_direction;
+  if (d.size() != dimension) throw Error("wrong-dimension", "initial_direction needs " + std::to_string(dimension) + " numbers", "/method/initial_direction");
+  if (!d.allFinite()) throw Error("non-finite", "initial_direction must be finite", "/method/initial_direction");
+  if (d.isZero(0)) throw Error("zero-direction", "initial_direction must not be zero", "/method/initial_direction");
+}
+
+}  // namespace
+
+Settings resolve_settings(const Method& method, const Scene& scene) {
+  if (scene.query == Query::cast || scene.query == Query::simulate)
+    throw Error("unsupported-query", "query \"" + std::string(query_names[static_cast<std::size_t>(scene.query)]) + "\" is not available yet", "/query");
+  Settings s;
+  s.name = method.name.value_or(s.name);
+  s.closest_point = method.closest_point.value_or(s.closest_point);
+  s.penetration = method.penetration.value_or(s.penetration);
+  s.scalar = method.scalar.value_or(s.scalar);
+  s.tolerance = method.tolerance.value_or(default_tolerance(scene, s));
+  s.max_iterations = method.max_iterations.value_or(s.max_iterations);
+  s.initial_direction = method.initial_direction;
+  refuse_missing(s);
+  check_numbers(s, scene.dimension);
+  if (s.name == MethodName::gjk_boolean && scene.query != Query::intersect)
+    refuse("method \"gjk-boolean\" answers only the query \"intersect\"", "/method/name");
+  return s;
+}
+
+}  // namespace gjkdbg

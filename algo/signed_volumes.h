@@ -1,0 +1,184 @@
+// Signed volumes: the closest point of a simplex to the origin by the signs of its sub-volumes.
+//
+// Montanari, Petrinic, Barbieri, "Improving the GJK algorithm for faster and more reliable distance queries between
+// convex objects", ACM TOG 36(3), 2017. The weight of a vertex is the volume (area, length) of the simplex with
+// that vertex replaced by the origin, over the whole: a weight with the wrong sign means that the origin lies beyond
+// the face opposite to it, and the search goes on in that face.
+//
+//   2D, triangle A B C:           the sign of each weight says on which side of the
+//        \  beyond A  /           opposite edge the origin lies. One wrong sign: go to
+//         \          /            that edge. Two: the nearer of two edges decides, and
+//      ----A--------C----         the segment case finds the vertex if it must.
+//           \      /
+//            \ in /   beyond
+//             \  /     BC... 
+//              B
+//
+// Deviations: signs that rounding could flip are taken in twice the precision; a triangle too thin for plain
+// arithmetic goes to WideClosestPoint; the point on a face is the projection n (n . w) / n . n, which keeps its
+// direction however near the origin is, instead of the weighted sum, which does not.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "algo/closest_point_wide.h"
+#include "algo/orientation.h"
+#include "algo/simplex.h"
+
+namespace gjkdbg {
+
+template <int D, class S>
+struct SignedVolumes {
+  using V = Vector<D, S>;
+  using Feature = ClosestFeature<D, S>;
+
+  /// `w`: `size` vertices, 1 <= size <= D + 1.
+  static Feature closest(const V* w, int size) {
+    if (size == 1) return vertex(w, 0);
+    if (size == D + 1) return full(w);
+    if constexpr (D == 3)
+      if (size == 3) return triangle(w, 0, 1, 2);
+    return segment(w, 0, 1);
+  }
+
+ private:
+  static Feature vertex(const V* w, int i) {
+    Feature f;
+    f.count = 1, f.index[0] = i, f.weight[0] = 1;
+    f.v = w[i], f.v_squared = w[i].dot(w[i]);
+    return f;
+  }
+
+  /// e = w_j - w_i; the origin projects to w_i + t e with t = -w_i . e / e . e. The point is measured from the nearer end,
+  /// and what rounding left along e is taken off once more, so that v stays perpendicular to the edge.
+  static Feature segment(const V* w, int i, int j) {
+    const V e = w[j] - w[i];
+    const S along_i = -w[i].dot(e), along_j = w[j].dot(e), length = e.dot(e);
+    if (!(along_i > 0) || !(length > 0)) return vertex(w, i);
+    if (!(along_j > 0)) return vertex(w, j);
+    Feature f;
+    f.count = 2, f.index[0] = i, f.index[1] = j;
+    const bool nearer_i = along_i < along_j;
+    const S t = nearer_i ? along_i / length : along_j / length;
+    f.weight[0] = nearer_i ? 1 - t : t, f.weight[1] = nearer_i ? t : 1 - t;
+    f.v = nearer_i ? V(w[i] + t * e) : V(w[j] - t * e);
+    f.v -= e * (f.v.dot(e) / length);
+    f.v_squared = f.v.dot(f.v);
+    return f;
+  }
+
+  static void keep_nearer(Feature& best, const Feature& candidate) {
+    if (best.count == 0 || candidate.v_squared < best.v_squared) best = candidate;
+  }
+
+  /// A triangle in space. n = (w_j - w_i) x (w_k - w_i); the weight of w_i has the sign of n . (w_j x w_k): twice
+  /// the area of edge jk with the projected origin, times |n|. The products are taken with edges, which are short.
+  static Feature triangle(const V* w, int i, int j, int k) {
+    const V ij = w[j] - w[i], jk = w[k] - w[j], ki = w[i] - w[k];
+    const V n = ij.cross(jk);
+    const S area = n.dot(n);
+    constexpr S thin = S(1e-6);  // sine squared of the angle below which the normal is worth less than 1e-13 in double
+    if (!(area > thin * ij.dot(ij) * jk.dot(jk)) || !(area > thin * jk.dot(jk) * ki.dot(ki))) return wide(w, {i, j, k});
+    const S weight_i = n.dot(w[j].cross(jk)), weight_j = n.dot(w[k].cross(ki)), weight_k = n.dot(w[i].cross(ij));
+    if (weight_i > 0 && weight_j > 0 && weight_k > 0) {
+      Feature f;
+      f.count = 3, f.index = {i, j, k};
+      const S sum = weight_i + weight_j + weight_k;
+      f.weight[0] = weight_i / sum, f.weight[1] = weight_j / sum, f.weight[2] = weight_k / sum;
+      f.v = n * (n.dot(nearest_of(w, i, j, k)) / area);
+      f.v_squared = f.v.dot(f.v);
+      return f;
+    }
+    Feature best;
+    if (!(weight_i > 0)) keep_nearer(best, segment(w, j, k));
+    if (!(weight_j > 0)) keep_nearer(best, segment(w, k, i));
+    if (!(weight_k > 0)) keep_nearer(best, segment(w, i, j));
+    return best;
+  }
+
+  static const V& nearest_of(const V* w, int i, int j, int k) {
+    const S di = w[i].dot(w[i]), dj = w[j].dot(w[j]), dk = w[k].dot(w[k]);
+    return di <= dj ? (di <= dk ? w[i] : w[k]) : (dj <= dk ? w[j] : w[k]);
+  }
+
+  static Feature wide(const V* w, const std::array<int, 3>& index) {
+    const std::array<V, 3> vertices{w[index[0]], w[index[1]], w[index[2]]};
+    Feature f = WideClosestPoint<D, S>::of_boundary(vertices.data(), 3);
+    for (int i = 0; i < f.count; ++i) f.index[i] = index[f.index[i]];
+    return f;
+  }
+
+  static Feature enclosed(std::array<S, D + 1> weights) {
+    Feature f;
+    f.count = D + 1, f.enclosed = true;
+    S sum = 0;
+    for (const S weight : weights) sum += weight;
+    for (int i = 0; i <= D; ++i) f.index[i] = i, f.weight[i] = weights[i] / sum;
+    return f;
+  }
+
+  static Feature full(const V* w) {
+    if constexpr (D == 1) return interval(w);
+    if constexpr (D == 2) return flat_triangle(w);
+    if constexpr (D == 3) return tetrahedron(w);
+  }
+
+  static Feature interval(const V* w) {
+    const S low = w[0][0], high = w[1][0];
+    if ((low < 0 && high > 0) || (low > 0 && high < 0)) return enclosed({std::abs(high), std::abs(low)});
+    return vertex(w, std::abs(low) <= std::abs(high) ? 0 : 1);
+  }
+
+  /// Sign of a value known to `error`; when rounding could flip it, `exactly()` decides.
+  template <class Exactly>
+  static int sure_sign(S value, S error, Exactly exactly) {
+    return value > error ? 1 : value < -error ? -1 : exactly();
+  }
+
+  static Feature flat_triangle(const V* w) {
+    const auto area = [&](int i, int j) { return w[i][0] * w[j][1] - w[i][1] * w[j][0]; };
+    const S value[3] = {area(1, 2), area(2, 0), area(0, 1)};
+    S m = 0;
+    for (int i = 0; i < 3; ++i) m = std::max(m, w[i].cwiseAbs().maxCoeff());
+    const S error = 4 * std::numeric_limits<S>::epsilon() * m * m;
+    const V origin = V::Zero();
+    const int whole = orientation<S>(w[0], w[1], w[2]);
+    Feature best;
+    bool inside = true;
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      const int side = sure_sign(value[i], error, [&] { return orientation<S>(w[j], w[k], origin); });
+      if (side == whole && whole != 0) continue;
+      inside = false;
+      keep_nearer(best, segment(w, j, k));
+    }
+    return inside ? enclosed({std::abs(value[0]), std::abs(value[1]), std::abs(value[2])}) : best;
+  }
+
+  /// Volume of the tetrahedron with vertex i replaced by the origin, for all i: two cross products serve all four.
+  static Feature tetrahedron(const V* w) {
+    const V w01 = w[0].cross(w[1]), w23 = w[2].cross(w[3]);
+    const S value[4] = {w23.dot(w[1]), -w23.dot(w[0]), w01.dot(w[3]), -w01.dot(w[2])};
+    S m = 0;
+    for (int i = 0; i < 4; ++i) m = std::max(m, w[i].cwiseAbs().maxCoeff());
+    const S error = determinant_error(m), sum = value[0] + value[1] + value[2] + value[3];
+    const int whole = sure_sign(sum, 5 * error, [&] { return orientation<S>(w[0], w[1], w[2], w[3]); });
+    Feature best;
+    bool inside = true;
+    for (int i = 0; i < 4; ++i) {
+      const int j = (i + 1) % 4, k = (i + 2) % 4, l = (i + 3) % 4;
+      // det(j, k, l) in this order has the sign of value[i] for even i and the opposite one for odd i.
+      const int side = sure_sign(value[i], error, [&] {
+        const int turned = determinant_sign_wide<S>(WideVector<S>(w[j]), WideVector<S>(w[k]), WideVector<S>(w[l]));
+        return i % 2 == 0 ? turned : -turned;
+      });
+      if (side == whole && whole != 0) continue;
+      inside = false;
+      keep_nearer(best, triangle(w, j, k, l));
+    }
+    return inside ? enclosed({std::abs(value[0]), std::abs(value[1]), std::abs(value[2]), std::abs(value[3])}) : best;
+  }
+};
+
+}  // namespace gjkdbg

@@ -1,0 +1,119 @@
+#include "algo/solve.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <string>
+
+#include "algo/contact.h"
+#include "algo/solve_pair.h"
+#include "shapes/error.h"
+
+namespace gjkdbg {
+namespace {
+
+/// Lengths within 2^-range .. 2^range are left alone; others are brought near 1 by a power of two, so that products of
+/// four lengths neither overflow nor vanish. Scaling by a power of two rounds nothing.
+double working_scale(double size, int range) {
+  if (size == 0) return 1;
+  const int exponent = std::ilogb(size);
+  return std::abs(exponent) <= range ? 1 : std::ldexp(1.0, -exponent);
+}
+
+template <class S>
+constexpr int safe_range = std::is_same_v<S, float> ? 16 : 64;
+
+struct NoSink {};
+
+template <int D, class S, class Sink>
+Result solve_convex(const Shape& shape_a, const Shape& shape_b, const Scene& scene, const Settings& settings, Sink& sink,
+                    TraceNumbers& numbers) {
+  const Pose &pose_a = scene.bodies[0].pose, &pose_b = scene.bodies[1].pose;
+  const double between = (pose_b.position - pose_a.position).cwiseAbs().maxCoeff();
+  const double scale = working_scale(std::max({size_of(shape_a), size_of(shape_b), between}), safe_range<S>);
+  const Convex<D, S> a(shape_a, scale), b(shape_b, scale);
+  thread_local Workspace<D, S> workspace;
+  if constexpr (std::is_same_v<Sink, NoSink>) {
+    NoTrace trace;
+    return PairSolver<D, S, NoTrace>(a, b, pose_a, pose_b, scale, settings, workspace, trace).run(scene.query);
+  } else {
+    const WorkingFrame<D, S> frame(pose_a, a.reference(), scale);
+    WorldTrace<D, S> trace(frame, numbers, sink);
+    return PairSolver<D, S, WorldTrace<D, S>>(a, b, pose_a, pose_b, scale, settings, workspace, trace).run(scene.query);
+  }
+}
+
+/// A mesh is its triangles, each a convex set of its own; anything else is itself.
+std::vector<Shape> convex_parts(const Shape& shape) {
+  const Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
+  if (!mesh) return {shape};
+  std::vector<Shape> parts;
+  for (const auto& t : mesh->triangles) {
+    PointSet triangle{PointSetKind::triangle, {mesh->points[t[0]], mesh->points[t[1]], mesh->points[t[2]]}, {}};
+    parts.push_back({std::move(triangle), shape.margin});
+  }
+  return parts;
+}
+
+bool nearer(const Result& x, const Result& y) {
+  if (x.signed_distance && y.signed_distance) return *x.signed_distance < *y.signed_distance;
+  return x.intersecting && !y.intersecting;
+}
+
+/// The union of the parts: as near as its nearest part, and its bounds are the least of theirs.
+void merge(std::optional<Result>& total, const Result& part) {
+  if (!total) {
+    total = part;
+    return;
+  }
+  Result merged = nearer(part, *total) ? part : *total;
+  merged.iterations = total->iterations + part.iterations;
+  merged.support_calls = total->support_calls + part.support_calls;
+  if (part.lower_bound && total->lower_bound) merged.lower_bound = std::min(*part.lower_bound, *total->lower_bound);
+  if (part.upper_bound && total->upper_bound) merged.upper_bound = std::min(*part.upper_bound, *total->upper_bound);
+  total = merged;
+}
+
+template <int D, class S, class Sink>
+Result solve_scene(const Scene& scene, const Settings& settings, Sink& sink) {
+  TraceNumbers numbers;
+  const Body &a = scene.bodies[0], &b = scene.bodies[1];
+  const std::vector<Shape> parts_a = convex_parts(a.shape), parts_b = convex_parts(b.shape);
+  std::optional<Result> total;
+  for (const Shape& part_a : parts_a)
+    for (const Shape& part_b : parts_b) {
+      Result result = solve_convex<D, S>(part_a, part_b, scene, settings, sink, numbers);
+      numbers.next_run();
+      if (scene.query == Query::contact && result.intersecting && result.normal)
+        result.contacts = contact_points({a.name, part_a, a.pose}, {b.name, part_b, b.pose}, result);
+      merge(total, result);
+      if (scene.query == Query::intersect && total->intersecting) return *total;
+    }
+  if (scene.query == Query::contact && !total->contacts) total->contacts.emplace();
+  return *total;
+}
+
+template <class Sink>
+Result dispatch(const Scene& scene, const Settings& settings, Sink& sink) {
+  assert(scene.bodies.size() == 2);
+  const bool single = settings.scalar == Scalar::float_precision;
+  switch (scene.dimension) {
+    case 1: return single ? solve_scene<1, float>(scene, settings, sink) : solve_scene<1, double>(scene, settings, sink);
+    case 2: return single ? solve_scene<2, float>(scene, settings, sink) : solve_scene<2, double>(scene, settings, sink);
+    default: return single ? solve_scene<3, float>(scene, settings, sink) : solve_scene<3, double>(scene, settings, sink);
+  }
+}
+
+}  // namespace
+
+Result solve(const Scene& scene, const Settings& settings) {
+  NoSink sink;
+  return dispatch(scene, settings, sink);
+}
+
+Result solve(const Scene& scene, const Settings& settings, TraceSink& trace) {
+  for (const SceneWarning& warning : scene.warnings) trace(world::Warning{warning.code, warning.message});
+  return dispatch(scene, settings, trace);
+}
+
+}  // namespace gjkdbg

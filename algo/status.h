@@ -1,0 +1,31 @@
+// How a phase ended. Every way out has a name of its own; reaching a limit never looks like an answer.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace gjkdbg {
+
+enum class GjkStatus {
+  converged,        ///< apart; the bounds agree within the tolerance or the rounding floor
+  separated,        ///< apart, proven by a support plane; the distance was not asked for
+  within_radius,    ///< the cores are nearer than the radii: overlap proven; no more was asked for
+  enclosed,         ///< the simplex encloses the origin with volume to spare: the cores overlap
+  touching,         ///< the simplex holds the origin within rounding, on a vertex, an edge or a face
+  stalled,          ///< no progress is possible in this precision; the bounds say how much is known
+  iteration_limit,  ///< the bounds say how much is known
+};
+inline constexpr std::array<std::string_view, 7> gjk_status_names{
+    "converged", "separated", "within_radius", "enclosed", "touching", "stalled", "iteration_limit"};
+
+enum class EpaStatus {
+  converged,        ///< the bounds of the depth agree within the tolerance or the rounding floor
+  flat,             ///< the difference has no volume: depth 0 (plus the radii), normal across it
+  separated,        ///< the origin turned out to lie outside, by less than GJK could tell
+  stalled,          ///< no face can be added in this precision; the last good face is the answer
+  iteration_limit,  ///< the bounds say how much is known
+};
+inline constexpr std::array<std::string_view, 5> epa_status_names{"converged", "flat", "separated", "stalled",
+                                                                  "iteration_limit"};
+
+}  // namespace gjkdbg

@@ -1,0 +1,205 @@
+// The trace: what happened, as events, and where they go.
+//
+// An event is a view: values and spans into the algorithm's own storage, valid during the call of the sink
+// only. A sink is anything callable with every event; nothing flows back. `NoTrace` compiles to nothing.
+// Each event declares its fields once, by name and member; the JSON codec, the schema test, the inspector and
+// the tests' event log all walk that declaration. Events are templates over the vector type and the list type:
+//   algorithm   Vector<D, S> in the frame of body 0, Viewed
+//   solve()     AnyVector in the world's frame,      Viewed   (what a sink sees)
+//   recording   AnyVector in the world's frame,      Owned
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "algo/status.h"
+#include "shapes/vector.h"
+
+namespace gjkdbg {
+
+/// Where an event's lists and texts live: borrowed from the algorithm, or owned by a recording.
+struct Viewed {
+  template <class T>
+  using List = std::span<const T>;
+  using Text = std::string_view;
+};
+struct Owned {
+  template <class T>
+  using List = std::vector<T>;
+  using Text = std::string;
+};
+template <class Store, class T>
+using ListOf = typename Store::template List<T>;
+
+/// Where a support query came from.
+enum class Phase { gjk, seed, epa };
+inline constexpr std::array<std::string_view, 3> phase_names{"gjk", "seed", "epa"};
+
+template <class Event, class Member>
+struct Field {
+  std::string_view name;
+  Member Event::*member;
+};
+template <class Event, class Member>
+constexpr Field<Event, Member> field(std::string_view name, Member Event::*member) {
+  return {name, member};
+}
+
+using Edge = std::array<int, 2>;
+
+/// A face of the polytope: D vertices, counter-clockwise seen from outside; `normal` is a unit vector pointing
+/// outwards; `distance` is the signed distance of its plane from the origin (negative: the origin is outside).
+/// Of the core difference: radii are not included.
+template <class V, class Store>
+struct FaceEvent {
+  int face = -1;
+  ListOf<Store, int> vertices;
+  V normal;
+  double distance = 0;
+  static constexpr auto fields() {
+    return std::tuple(field("face", &FaceEvent::face), field("vertices", &FaceEvent::vertices),
+                      field("normal", &FaceEvent::normal), field("distance", &FaceEvent::distance));
+  }
+};
+
+template <class V, class Store>
+struct GjkBegan {
+  static constexpr std::string_view kind = "gjk_began";
+  V direction;  ///< the first search direction, not normalised
+  static constexpr auto fields() { return std::tuple(field("direction", &GjkBegan::direction)); }
+};
+
+/// Vertex `vertex` of the difference: w = a - b is its farthest point along `direction`. The points are those of
+/// the cores: a sphere answers with its centre, a margin is left out.
+template <class V, class Store>
+struct SupportQueried {
+  static constexpr std::string_view kind = "support_queried";
+  int iteration = 0;
+  Phase phase = Phase::gjk;
+  V direction;
+  int vertex = -1;
+  V a, b, w;
+  static constexpr auto fields() {
+    return std::tuple(field("iteration", &SupportQueried::iteration), field("phase", &SupportQueried::phase),
+                      field("direction", &SupportQueried::direction), field("vertex", &SupportQueried::vertex),
+                      field("a", &SupportQueried::a), field("b", &SupportQueried::b), field("w", &SupportQueried::w));
+  }
+};
+
+/// The simplex `before` was cut down to `region`, whose hull holds the point `closest` to the origin, with
+/// `barycentric` weights in the order of `region`. Vertices newest first. The bounds are of the signed distance of
+/// the bodies, radii included. Boolean GJK computes neither weights nor closest point nor bounds: they are
+/// empty (`barycentric`, `closest`) and NaN (null in a file).
+template <class V, class Store>
+struct SimplexReduced {
+  static constexpr std::string_view kind = "simplex_reduced";
+  int iteration = 0;
+  ListOf<Store, int> before, region;
+  ListOf<Store, double> barycentric;
+  V closest;
+  double lower_bound = 0, upper_bound = 0;
+  static constexpr auto fields() {
+    return std::tuple(field("iteration", &SimplexReduced::iteration), field("before", &SimplexReduced::before),
+                      field("region", &SimplexReduced::region), field("barycentric", &SimplexReduced::barycentric),
+                      field("closest", &SimplexReduced::closest), field("lower_bound", &SimplexReduced::lower_bound),
+                      field("upper_bound", &SimplexReduced::upper_bound));
+  }
+};
+
+template <class V, class Store>
+struct GjkEnded {
+  static constexpr std::string_view kind = "gjk_ended";
+  int iteration = 0;
+  GjkStatus status = GjkStatus::converged;
+  double lower_bound = 0, upper_bound = 0;  ///< of the signed distance of the bodies
+  static constexpr auto fields() {
+    return std::tuple(field("iteration", &GjkEnded::iteration), field("status", &GjkEnded::status),
+                      field("lower_bound", &GjkEnded::lower_bound), field("upper_bound", &GjkEnded::upper_bound));
+  }
+};
+
+template <class V, class Store>
+struct PolytopeSeeded {
+  static constexpr std::string_view kind = "polytope_seeded";
+  ListOf<Store, int> vertices;
+  ListOf<Store, FaceEvent<V, Store>> faces;
+  static constexpr auto fields() {
+    return std::tuple(field("vertices", &PolytopeSeeded::vertices), field("faces", &PolytopeSeeded::faces));
+  }
+};
+
+template <class V, class Store>
+struct FaceChosen {
+  static constexpr std::string_view kind = "face_chosen";
+  int iteration = 0;
+  int face = -1;
+  V normal;
+  double distance = 0;
+  static constexpr auto fields() {
+    return std::tuple(field("iteration", &FaceChosen::iteration), field("face", &FaceChosen::face),
+                      field("normal", &FaceChosen::normal), field("distance", &FaceChosen::distance));
+  }
+};
+
+/// Vertex `vertex` joined the polytope: the faces that saw it were `removed`, leaving the `horizon` (edges in
+/// order, each as the removed side had it; in 2D a single pair of vertices, in 1D empty), closed by the faces
+/// `added`. The bounds are of the penetration depth of the bodies, radii included.
+template <class V, class Store>
+struct PolytopeGrown {
+  static constexpr std::string_view kind = "polytope_grown";
+  int iteration = 0;
+  int vertex = -1;
+  ListOf<Store, int> removed;
+  ListOf<Store, Edge> horizon;
+  ListOf<Store, FaceEvent<V, Store>> added;
+  double lower_bound = 0, upper_bound = 0;
+  static constexpr auto fields() {
+    return std::tuple(field("iteration", &PolytopeGrown::iteration), field("vertex", &PolytopeGrown::vertex),
+                      field("removed", &PolytopeGrown::removed), field("horizon", &PolytopeGrown::horizon),
+                      field("added", &PolytopeGrown::added), field("lower_bound", &PolytopeGrown::lower_bound),
+                      field("upper_bound", &PolytopeGrown::upper_bound));
+  }
+};
+
+/// `face` is the answering face (-1 when the difference is flat), `normal` points from body 0 to body 1, `depth` is
+/// that of the bodies, radii included.
+template <class V, class Store>
+struct EpaEnded {
+  static constexpr std::string_view kind = "epa_ended";
+  int iteration = 0;
+  EpaStatus status = EpaStatus::converged;
+  int face = -1;
+  V normal;
+  double depth = 0;
+  static constexpr auto fields() {
+    return std::tuple(field("iteration", &EpaEnded::iteration), field("status", &EpaEnded::status),
+                      field("face", &EpaEnded::face), field("normal", &EpaEnded::normal),
+                      field("depth", &EpaEnded::depth));
+  }
+};
+
+template <class V, class Store>
+struct Warning {
+  static constexpr std::string_view kind = "warning";
+  typename Store::Text code, message;
+  static constexpr auto fields() {
+    return std::tuple(field("code", &Warning::code), field("message", &Warning::message));
+  }
+};
+
+/// The sink that costs nothing.
+struct NoTrace {
+  template <class Event>
+  constexpr void operator()(const Event&) const noexcept {}
+};
+
+template <class Trace>
+inline constexpr bool traced = !std::is_same_v<std::remove_cvref_t<Trace>, NoTrace>;
+
+}  // namespace gjkdbg

@@ -1,0 +1,118 @@
+// From the frame the algorithms work in (body 0's axes, its core's reference point, scaled) to the world's.
+#pragma once
+
+#include <vector>
+
+#include "algo/minkowski_difference.h"
+#include "algo/solve.h"
+
+namespace gjkdbg {
+
+/// Where the working frame lies in the world. With x, R body 0's pose and c the (scaled) reference point, a point p is
+/// R (p + c) / scale + x in the world, and a vector v is R v / scale.
+template <int D, class S>
+struct WorkingFrame {
+  Matrix<D, double> rotation;
+  Vector<D, double> origin;
+  double unit;  ///< 1 / scale, a power of two
+
+  WorkingFrame(const Pose& pose, const Vector<D, double>& reference, double scale)
+      : rotation(pose.matrix), origin(pose.position), unit(1 / scale) {
+    if (!reference.isZero(0)) origin += rotation * (reference * unit);
+  }
+  Vector<D, double> vector(const Vector<D, S>& v) const { return rotation * (v.template cast<double>() * unit); }
+  Vector<D, double> direction(const Vector<D, S>& d) const { return rotation * d.template cast<double>(); }
+  Vector<D, double> point(const Vector<D, S>& p) const { return vector(p) + origin; }
+};
+
+/// Vertex and face numbers of several runs in one trace: none is used twice.
+struct TraceNumbers {
+  int first_vertex = 0, first_face = 0, next_vertex = 0, next_face = 0;
+  /// From here on numbers start after all that have been used.
+  void next_run() { first_vertex = next_vertex, first_face = next_face; }
+};
+
+/// Hands the algorithms' events on to a sink, in world coordinates.
+template <int D, class S>
+class WorldTrace {
+  using V = Vector<D, S>;
+
+ public:
+  WorldTrace(const WorkingFrame<D, S>& frame, TraceNumbers& numbers, TraceSink& sink)
+      : frame_(frame), numbers_(numbers), sink_(sink) {}
+
+  void operator()(const GjkBegan<V, Viewed>& e) { sink_(world::GjkBegan{frame_.direction(e.direction)}); }
+
+  void operator()(const SupportQueried<V, Viewed>& e) {
+    sink_(world::SupportQueried{e.iteration, e.phase, frame_.direction(e.direction), vertex(e.vertex), frame_.point(e.a),
+                                frame_.point(e.b), frame_.vector(e.w)});
+  }
+
+  void operator()(const SimplexReduced<V, Viewed>& e) {
+    const std::vector<int> before = vertices(e.before), region = vertices(e.region);
+    AnyVector closest;
+    if (!e.closest.hasNaN()) closest = frame_.vector(e.closest);
+    sink_(world::SimplexReduced{e.iteration, before, region, e.barycentric, closest, length(e.lower_bound), length(e.upper_bound)});
+  }
+
+  void operator()(const GjkEnded<V, Viewed>& e) {
+    sink_(world::GjkEnded{e.iteration, e.status, length(e.lower_bound), length(e.upper_bound)});
+  }
+
+  void operator()(const PolytopeSeeded<V, Viewed>& e) {
+    const Faces faces(*this, e.faces);
+    sink_(world::PolytopeSeeded{vertices(e.vertices), faces.events});
+  }
+
+  void operator()(const FaceChosen<V, Viewed>& e) {
+    sink_(world::FaceChosen{e.iteration, face(e.face), frame_.direction(e.normal), length(e.distance)});
+  }
+
+  void operator()(const PolytopeGrown<V, Viewed>& e) {
+    const Faces added(*this, e.added);
+    std::vector<int> removed;
+    std::vector<Edge> horizon;
+    for (const int f : e.removed) removed.push_back(face(f));
+    for (const Edge& edge : e.horizon) horizon.push_back({vertex(edge[0]), vertex(edge[1])});
+    sink_(world::PolytopeGrown{e.iteration, vertex(e.vertex), removed, horizon, added.events, length(e.lower_bound),
+                               length(e.upper_bound)});
+  }
+
+  void operator()(const EpaEnded<V, Viewed>& e) {
+    sink_(world::EpaEnded{e.iteration, e.status, face(e.face), frame_.direction(e.normal), length(e.depth)});
+  }
+
+ private:
+  struct Faces {
+    std::vector<std::vector<int>> vertices;
+    std::vector<FaceEvent<AnyVector, Viewed>> events;
+    Faces(WorldTrace& trace, std::span<const FaceEvent<V, Viewed>> faces) {
+      vertices.reserve(faces.size());
+      for (const auto& f : faces) {
+        vertices.push_back(trace.vertices(f.vertices));
+        events.push_back({trace.face(f.face), vertices.back(), trace.frame_.direction(f.normal), trace.length(f.distance)});
+      }
+    }
+  };
+
+  double length(double x) const { return x * frame_.unit; }
+  int vertex(int v) { return number(v, numbers_.first_vertex, numbers_.next_vertex); }
+  int face(int f) { return number(f, numbers_.first_face, numbers_.next_face); }
+  static int number(int n, int first, int& next) {
+    if (n < 0) return n;
+    next = std::max(next, first + n + 1);
+    return first + n;
+  }
+  std::vector<int> vertices(std::span<const int> numbers) {
+    std::vector<int> result;
+    result.reserve(numbers.size());
+    for (const int v : numbers) result.push_back(vertex(v));
+    return result;
+  }
+
+  const WorkingFrame<D, S>& frame_;
+  TraceNumbers& numbers_;
+  TraceSink& sink_;
+};
+
+}  // namespace gjkdbg

@@ -1,0 +1,83 @@
+// Replay: the state of the algorithm after any event of a recording.
+//
+// frame_at(recording, k) is what a viewer shows at step k: everything that holds after event k. Playing to a step
+// and seeking to it give the same frame; Replay keeps snapshots so that seeking in long recordings stays fast.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "recordings/recording.h"
+
+namespace gjkdbg {
+
+/// A vertex of the difference, as its support query gave it.
+struct FrameVertex {
+  int vertex = -1;
+  std::size_t event = 0;  ///< the support_queried event it came from
+  AnyVector a, b, w;
+  bool operator==(const FrameVertex&) const = default;
+};
+
+struct FrameFace {
+  int face = -1;
+  std::size_t event = 0;  ///< the event that added it
+  std::vector<int> vertices;
+  AnyVector normal;
+  double distance = 0;
+  bool operator==(const FrameFace&) const = default;
+};
+
+struct Frame {
+  std::size_t step = 0;  ///< index of the event this frame follows
+  int iteration = 0;
+  enum class Stage { before, gjk, seed, epa, done } stage = Stage::before;
+
+  std::optional<AnyVector> direction;  ///< the latest search direction
+  std::optional<int> newest;           ///< vertex of the latest support query
+
+  /// GJK: the current simplex, newest first: after a support query it holds the new vertex too. EPA starts from it and leaves it.
+  std::vector<int> simplex;
+  std::vector<int> dropped;         ///< vertices the event at `step` dropped
+  std::vector<double> barycentric;  ///< in the order of `simplex`; empty when not known
+  std::optional<AnyVector> closest;
+  std::optional<double> lower_bound, upper_bound;  ///< of the signed distance; in EPA too (minus the depth's bounds)
+
+  std::map<int, FrameFace> faces;          ///< EPA: the polytope
+  std::optional<int> chosen;               ///< the face expanded
+  std::vector<FrameFace> removed;          ///< faces the event at `step` removed
+  std::vector<Edge> horizon;               ///< of the event at `step`
+  std::vector<int> added;                  ///< faces the event at `step` added
+
+  /// The vertices that simplex, dropped, newest, faces and removed refer to.
+  std::map<int, FrameVertex> vertices;
+
+  std::optional<GjkStatus> gjk_status;
+  std::optional<EpaStatus> epa_status;
+  std::optional<AnyVector> normal;  ///< EPA's answer
+  std::optional<double> depth;      ///< EPA's answer
+  bool operator==(const Frame&) const = default;
+};
+
+/// Throws std::out_of_range when `step` is not an event of the recording.
+Frame frame_at(const Recording& recording, std::size_t step);
+
+class Replay {
+ public:
+  /// Keeps a reference: the recording must outlive the replay and not change.
+  explicit Replay(const Recording& recording);
+  const Frame& at(std::size_t step);  ///< valid until the next call
+
+ private:
+  static constexpr std::size_t snapshot_distance = 256;
+  const Recording* recording_;
+  std::vector<std::shared_ptr<const Frame>> snapshots_;
+  Frame current_;
+  bool started_ = false;
+};
+
+}  // namespace gjkdbg

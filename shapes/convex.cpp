@@ -1,0 +1,130 @@
+#include "shapes/convex.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "shapes/convex_hull.h"
+
+namespace gjkdbg {
+namespace {
+
+template <class... Ts>
+struct Overloaded : Ts... {
+  using Ts::operator()...;
+};
+template <class... Ts>
+Overloaded(Ts...) -> Overloaded<Ts...>;
+
+/// The reference coordinate for values between low and high: the one of smaller magnitude when the two are
+/// within a factor of two, so that subtracting it is exact for everything between (Sterbenz); else zero.
+double exact_reference(double low, double high) {
+  const double near = std::min(std::abs(low), std::abs(high)), far = std::max(std::abs(low), std::abs(high));
+  if ((low > 0) != (high > 0) || near == 0 || far > 2 * near) return 0;
+  return std::abs(low) < std::abs(high) ? low : high;
+}
+
+}  // namespace
+
+template <int D, class S>
+void Convex<D, S>::set_vertices(std::vector<Vector<D, double>> points, double scale) {
+  Vector<D, double> low = points.front(), high = points.front();
+  for (const auto& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  for (int i = 0; i < D; ++i) reference_[i] = exact_reference(low[i], high[i]);
+  VerticesCore<D, S> core;
+  core.vertices.reserve(points.size());
+  for (const auto& p : points) {
+    core.vertices.push_back(((p - reference_) * scale).template cast<S>());
+    extent_ = std::max(extent_, (p - reference_).norm() * scale);
+  }
+  reference_ *= scale;
+  core_ = std::move(core);
+}
+
+template <int D, class S>
+template <class Geometry>
+void Convex<D, S>::set(const Geometry& g, double scale) {
+  const auto scaled = [&](double length) { return static_cast<S>(length * scale); };
+  if constexpr (std::is_same_v<Geometry, Sphere>) {
+    radius_ = g.radius * scale;
+  } else if constexpr (std::is_same_v<Geometry, Box>) {
+    BoxCore<D, S> core;
+    Vector<D, double> low = g.min, high = g.max;
+    for (int i = 0; i < D; ++i) reference_[i] = exact_reference(low[i], high[i]);
+    low -= reference_, high -= reference_;
+    core.min = (low * scale).template cast<S>(), core.max = (high * scale).template cast<S>();
+    extent_ = low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm() * scale;
+    reference_ *= scale;
+    core_ = core;
+  } else if constexpr (std::is_same_v<Geometry, Capsule>) {
+    core_ = SegmentCore<D, S>{g.axis, scaled(g.half_height)};
+    extent_ = g.half_height * scale;
+    radius_ = g.radius * scale;
+  } else if constexpr (std::is_same_v<Geometry, Ellipsoid>) {
+    const Vector<D, double> radii = g.radii;
+    core_ = EllipsoidCore<D, S>{(radii * scale).template cast<S>()};
+    extent_ = radii.maxCoeff() * scale;
+    polytope_ = false;
+  } else if constexpr (std::is_same_v<Geometry, PointSet>) {
+    const bool reduce = g.kind == PointSetKind::hull || g.kind == PointSetKind::polygon;
+    std::vector<Vector<D, double>> points;
+    if (!reduce) {
+      points.assign(g.points.begin(), g.points.end());
+      return set_vertices(std::move(points), scale);
+    }
+    const ConvexHull hull = convex_hull(g.points, D);
+    for (const int i : hull.vertices) points.push_back(g.points[i]);
+    set_vertices(std::move(points), scale);
+    if (D == 3 && hull.rank == 3 && hull.vertices.size() >= hill_climbing_from)
+      core_ = HullCore<D, S>{std::move(std::get<VerticesCore<D, S>>(core_).vertices), hull.first_neighbour, hull.neighbours};
+  } else if constexpr (std::is_same_v<Geometry, Sum>) {
+    const auto first = std::make_shared<const Convex>(*g.first, scale), second = std::make_shared<const Convex>(*g.second, scale);
+    core_ = SumCore<D, S>{first, second};
+    reference_ = first->reference() + second->reference();
+    extent_ = first->extent() + second->extent();
+    radius_ = first->radius() + second->radius();
+    polytope_ = first->polytope() && second->polytope();
+    if (std::holds_alternative<PointCore<D, S>>(first->core())) core_ = Core(second->core());
+    if (std::holds_alternative<PointCore<D, S>>(second->core())) core_ = Core(first->core());
+  } else if constexpr (D == 3) {
+    if constexpr (std::is_same_v<Geometry, Cylinder>) core_ = CylinderCore<S>{g.axis, scaled(g.radius), scaled(g.half_height)};
+    if constexpr (std::is_same_v<Geometry, Cone>) core_ = ConeCore<S>{g.axis, scaled(g.radius), scaled(g.half_height)};
+    if constexpr (std::is_same_v<Geometry, Cylinder> || std::is_same_v<Geometry, Cone>) {
+      extent_ = std::hypot(g.radius, g.half_height) * scale;
+      polytope_ = g.radius == 0;
+    }
+  }
+}
+
+template <int D, class S>
+Convex<D, S>::Convex(const Shape& shape, double scale) {
+  std::visit([&](const auto& geometry) { set(geometry, scale); }, shape.geometry);
+  radius_ += shape.margin * scale;
+}
+
+double size_of(const Shape& shape) {
+  const auto largest = [](const std::vector<AnyVector>& points) {
+    double size = 0;
+    for (const AnyVector& p : points) size = std::max(size, p.cwiseAbs().maxCoeff());
+    return size;
+  };
+  const double core = std::visit(
+      Overloaded{[](const Sphere& s) { return s.radius; },
+                 [](const Box& b) { return std::max(b.min.cwiseAbs().maxCoeff(), b.max.cwiseAbs().maxCoeff()); },
+                 [](const Ellipsoid& e) { return e.radii.maxCoeff(); },
+                 [&](const PointSet& p) { return largest(p.points); }, [&](const Mesh& m) { return largest(m.points); },
+                 [](const Sum& s) { return std::max(size_of(*s.first), size_of(*s.second)); },
+                 [](const auto& round) { return std::max(round.radius, round.half_height); }},
+      shape.geometry);
+  return std::max(core, shape.margin);
+}
+
+template class Convex<1, double>;
+template class Convex<2, double>;
+template class Convex<3, double>;
+template class Convex<1, float>;
+template class Convex<2, float>;
+template class Convex<3, float>;
+
+}  // namespace gjkdbg

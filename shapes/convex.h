@@ -1,0 +1,80 @@
+// Convex: a shape as the algorithms see it, a core with a support mapping, and a radius around it.
+//
+// Every shape is the Minkowski sum of a core and a ball: a sphere is a point and a radius, a capsule a segment
+// and a radius, a margin adds to the radius. GJK and EPA run on the cores; the radii are added afterwards, exactly.
+// The core is moved to a reference point of its own where that costs no rounding (all coordinates of an axis
+// within a factor of two of each other, so that subtracting is exact by Sterbenz' lemma): a hull whose points
+// lie far from its body's origin is then as accurate as one around it.
+#pragma once
+
+#include <utility>
+#include <variant>
+
+#include "shapes/shape.h"
+#include "shapes/support_mappings.h"
+
+namespace gjkdbg {
+
+template <int D, class S>
+struct CoreVariant {
+  using type = std::variant<PointCore<D, S>, SegmentCore<D, S>, BoxCore<D, S>, EllipsoidCore<D, S>, VerticesCore<D, S>,
+                            HullCore<D, S>, SumCore<D, S>>;
+};
+template <class S>
+struct CoreVariant<3, S> {
+  using type = std::variant<PointCore<3, S>, SegmentCore<3, S>, BoxCore<3, S>, EllipsoidCore<3, S>, VerticesCore<3, S>,
+                            HullCore<3, S>, SumCore<3, S>, CylinderCore<S>, ConeCore<S>>;
+};
+
+template <int D, class S>
+class Convex {
+ public:
+  using Core = typename CoreVariant<D, S>::type;
+
+  /// `shape` must be valid in dimension D (`validate`) and no mesh. Lengths are multiplied by `scale`, which
+  /// must be a power of two. A hull is reduced to its extreme vertices.
+  explicit Convex(const Shape& shape, double scale = 1);
+
+  /// A point of the core farthest along `direction`; both relative to `reference()`, axes of the body.
+  Vector<D, S> support(const Vector<D, S>& direction, int& hint) const {
+    return std::visit([&](const auto& core) { return core.support(direction, hint); }, core_);
+  }
+
+  const Core& core() const { return core_; }
+  const Vector<D, double>& reference() const { return reference_; }  ///< of the core, in the body's frame
+  double radius() const { return radius_; }                          ///< of the ball around the core
+  double extent() const { return extent_; }      ///< largest distance of a core point from `reference()`
+  bool polytope() const { return polytope_; }    ///< whether the core has finitely many extreme points
+
+ private:
+  Core core_;
+  Vector<D, double> reference_ = Vector<D, double>::Zero();
+  double radius_ = 0;
+  double extent_ = 0;
+  bool polytope_ = true;
+
+  template <class Geometry>
+  void set(const Geometry& geometry, double scale);
+  void set_vertices(std::vector<Vector<D, double>> points, double scale);
+};
+
+template <int D, class S>
+Vector<D, S> SumCore<D, S>::support(const Vector<D, S>& d, int& hint) const {
+  int second_hint = 0;
+  return first->support(d, hint) + second->support(d, second_hint);
+}
+
+/// From how many vertices hill climbing beats a scan; measured with tests/bench/support_bench.
+inline constexpr int hill_climbing_from = 32;
+
+/// Largest power of two not above 1 / (the shape's size): brings any scene to lengths near 1.
+double size_of(const Shape& shape);
+
+extern template class Convex<1, double>;
+extern template class Convex<2, double>;
+extern template class Convex<3, double>;
+extern template class Convex<1, float>;
+extern template class Convex<2, float>;
+extern template class Convex<3, float>;
+
+}  // namespace gjkdbg

@@ -1,0 +1,156 @@
+// Support mappings: for each kind of core, a point of it farthest along a direction.
+//
+// After van den Bergen, "Collision Detection in Interactive 3D Environments" (2003), chapter 4.3, with three
+// deviations: the cone compares support values instead of angles, a tie takes the positive side (sgn 0 = 1),
+// and a direction for which every point is farthest (zero, or along an axis) gets a fixed one of them, never NaN.
+//
+// Every mapping has `support(direction, hint)`: direction in the core's frame, of any length; the result lies
+// in the core. `hint` carries a vertex number from one call to the next (hill climbing starts there); it changes
+// which of several equally far points is returned, nothing else. Radii are no part of a core.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "shapes/vector.h"
+
+namespace gjkdbg {
+
+/// The core of a sphere: its centre.
+template <int D, class S>
+struct PointCore {
+  Vector<D, S> support(const Vector<D, S>&, int&) const { return Vector<D, S>::Zero(); }
+};
+
+/// The core of a capsule: a segment along a coordinate axis.
+template <int D, class S>
+struct SegmentCore {
+  int axis;
+  S half_height;
+  Vector<D, S> support(const Vector<D, S>& d, int&) const {
+    Vector<D, S> s = Vector<D, S>::Zero();
+    s[axis] = d[axis] < 0 ? -half_height : half_height;
+    return s;
+  }
+};
+
+/// A box between two corners.
+template <int D, class S>
+struct BoxCore {
+  Vector<D, S> min, max;
+  Vector<D, S> support(const Vector<D, S>& d, int&) const {
+    Vector<D, S> s;
+    for (int i = 0; i < D; ++i) s[i] = d[i] < 0 ? min[i] : max[i];
+    return s;
+  }
+};
+
+/// Length of the part of d that is perpendicular to an axis, and the index of the other two axes.
+template <class S>
+struct Around {
+  int i, j;
+  S sigma;
+  Around(const Vector<3, S>& d, int axis) : i((axis + 1) % 3), j((axis + 2) % 3), sigma(std::sqrt(d[i] * d[i] + d[j] * d[j])) {}
+  /// The point of a circle of this radius farthest along d; its centre when d has no part in the circle's plane.
+  void on_circle(const Vector<3, S>& d, S radius, Vector<3, S>& s) const {
+    const S scale = sigma > 0 ? radius / sigma : S(0);
+    s[i] = scale * d[i];
+    s[j] = scale * d[j];
+  }
+};
+
+template <class S>
+struct CylinderCore {
+  int axis;
+  S radius, half_height;
+  Vector<3, S> support(const Vector<3, S>& d, int&) const {
+    Vector<3, S> s;
+    Around<S>(d, axis).on_circle(d, radius, s);
+    s[axis] = d[axis] < 0 ? -half_height : half_height;
+    return s;
+  }
+};
+
+/// Apex at +half_height, base circle of `radius` at -half_height. With y the axial part of d and sigma the rest,
+/// the apex is worth y h and the best point of the base radius sigma - y h, so the apex wins where
+/// 2 h y > radius sigma. Dividing by |d| sqrt(radius^2 + 4 h^2) gives van den Bergen's y > |d| sin(alpha),
+/// but this form needs no angle and holds for radius = 0 and for h = 0.
+template <class S>
+struct ConeCore {
+  int axis;
+  S radius, half_height;
+  Vector<3, S> support(const Vector<3, S>& d, int&) const {
+    Vector<3, S> s = Vector<3, S>::Zero();
+    const Around<S> around(d, axis);
+    if (2 * half_height * d[axis] > radius * around.sigma) {
+      s[axis] = half_height;
+    } else {
+      around.on_circle(d, radius, s);
+      s[axis] = -half_height;
+    }
+    return s;
+  }
+};
+
+/// The unit ball stretched by the radii: with M = diag(radii), the farthest point along d is M (M d / |M d|).
+template <int D, class S>
+struct EllipsoidCore {
+  Vector<D, S> radii;
+  Vector<D, S> support(const Vector<D, S>& d, int&) const {
+    const Vector<D, S> stretched = radii.cwiseProduct(d);
+    const S length = std::sqrt(stretched.dot(stretched));
+    if (!(length > 0)) return Vector<D, S>::Zero();
+    return radii.cwiseProduct(stretched) / length;
+  }
+};
+
+/// Few vertices: look at all of them.
+template <int D, class S>
+struct VerticesCore {
+  std::vector<Vector<D, S>> vertices;
+  Vector<D, S> support(const Vector<D, S>& d, int&) const {
+    const Vector<D, S>* best = vertices.data();
+    S best_dot = best->dot(d);
+    for (const Vector<D, S>* v = best + 1; v != vertices.data() + vertices.size(); ++v) {
+      const S dot = v->dot(d);
+      if (dot > best_dot) best = v, best_dot = dot;
+    }
+    return *best;
+  }
+};
+
+/// Many vertices of a convex polytope: walk along edges uphill. On a convex polytope a vertex with no higher
+/// neighbour is a highest one.
+template <int D, class S>
+struct HullCore {
+  std::vector<Vector<D, S>> vertices;
+  std::vector<int> first_neighbour;  ///< of vertex i: neighbours[first_neighbour[i] .. first_neighbour[i + 1])
+  std::vector<int> neighbours;
+
+  Vector<D, S> support(const Vector<D, S>& d, int& hint) const {
+    int best = hint >= 0 && hint < static_cast<int>(vertices.size()) ? hint : 0;
+    S best_dot = vertices[best].dot(d);
+    for (int from = -1; from != best;) {
+      from = best;
+      for (int k = first_neighbour[from]; k < first_neighbour[from + 1]; ++k) {
+        const S dot = vertices[neighbours[k]].dot(d);
+        if (dot > best_dot) best = neighbours[k], best_dot = dot;
+      }
+    }
+    hint = best;
+    return vertices[best];
+  }
+};
+
+template <int D, class S>
+class Convex;
+
+/// The Minkowski sum of two cores: supports add up.
+template <int D, class S>
+struct SumCore {
+  std::shared_ptr<const Convex<D, S>> first, second;
+  Vector<D, S> support(const Vector<D, S>& d, int& hint) const;
+};
+
+}  // namespace gjkdbg

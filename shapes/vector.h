@@ -1,0 +1,25 @@
+// Vector and matrix types shared by every room.
+//
+// The algorithms are templates over the dimension D (1, 2, 3) and the scalar S (double, float) and use the
+// fixed-size types. Scenes, recordings and the window learn the dimension at run time and use the `Any…`
+// types: same Eigen interface, at most three rows, storage in place, no allocation.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>  // cross
+
+namespace gjkdbg {
+
+template <int D, class S>
+using Vector = Eigen::Matrix<S, D, 1>;
+
+template <int D, class S>
+using Matrix = Eigen::Matrix<S, D, D>;
+
+/// A point or direction of a dimension known at run time (1, 2 or 3 rows).
+using AnyVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
+
+/// A square matrix of a dimension known at run time (1, 2 or 3 rows).
+using AnyMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
+
+}  // namespace gjkdbg
