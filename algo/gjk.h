@@ -163,9 +163,11 @@ class Gjk {
     const auto& simplex = result_.simplex;
     Numbers numbers;
     numbers.size = simplex.size;
-    for (int i = 0; i < simplex.size; ++i) order_[i] = i;
-    std::sort(order_.begin(), order_.begin() + simplex.size,
-              [&](int i, int j) { return simplex.points[i].vertex > simplex.points[j].vertex; });
+    const auto newer = [&](int i, int j) { return simplex.points[i].vertex > simplex.points[j].vertex; };
+    for (int i = 0; i < simplex.size; ++i) {
+      order_[i] = i;
+      for (int k = i; k > 0 && newer(order_[k], order_[k - 1]); --k) std::swap(order_[k], order_[k - 1]);
+    }
     for (int i = 0; i < simplex.size; ++i) numbers.vertex[i] = simplex.points[order_[i]].vertex;
     return numbers;
   }

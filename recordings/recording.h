@@ -64,12 +64,17 @@ class Recorder final : public TraceSink {
 
 /// Solves the scene and keeps everything. Throws Error when the method cannot be resolved (place "/method/…").
 Recording record(const SceneFile& scene);
+Recording record(const SceneFile& scene, const Settings& settings);
+
+/// Who writes our recordings: "gjkdbg VERSION".
+std::string generator_name();
 
 /// JSON text, one event a line, every double so that it reads back bit for bit, unset and non-finite values as null.
 std::string recording_to_text(const Recording& recording);
 
-/// Throws Error (place: JSON pointer or line) for anything that is not a whole, valid recording: event fields missing or
-/// mistyped, vectors of the wrong dimension, vertices and faces referred to before they exist, … Never crashes.
+/// Throws Error (place: JSON pointer or line) for anything that is not a whole recording: event fields missing, unknown or
+/// mistyped, vectors of the wrong dimension, … Never crashes. What the events *say* is not judged: a recording of a wrong
+/// solver, with vertices that nobody asked for, is still a recording. A direction may hold nulls, read as NaN.
 Recording parse_recording(std::string_view text, const std::filesystem::path& directory);
 Recording read_recording(const std::filesystem::path& file);
 

@@ -42,6 +42,7 @@ struct Frame {
 
   /// GJK: the current simplex, newest first: after a support query it holds the new vertex too. EPA starts from it and leaves it.
   std::vector<int> simplex;
+  std::vector<int> seeds;           ///< EPA: vertices asked for to complete the start, until the polytope stands
   std::vector<int> dropped;         ///< vertices the event at `step` dropped
   std::vector<double> barycentric;  ///< in the order of `simplex`; empty when not known
   std::optional<AnyVector> closest;
@@ -53,7 +54,7 @@ struct Frame {
   std::vector<Edge> horizon;               ///< of the event at `step`
   std::vector<int> added;                  ///< faces the event at `step` added
 
-  /// The vertices that simplex, dropped, newest, faces and removed refer to.
+  /// The vertices that simplex, seeds, dropped, newest, faces and removed refer to.
   std::map<int, FrameVertex> vertices;
 
   std::optional<GjkStatus> gjk_status;
@@ -75,7 +76,8 @@ class Replay {
  private:
   static constexpr std::size_t snapshot_distance = 256;
   const Recording* recording_;
-  std::vector<std::shared_ptr<const Frame>> snapshots_;
+  std::map<int, std::vector<std::size_t>> vertices_;  ///< the events that gave out each number
+  std::vector<std::shared_ptr<const Frame>> snapshots_;  ///< after events 255, 511, …
   Frame current_;
   bool started_ = false;
 };

@@ -35,12 +35,26 @@ struct SceneFile {
 /// Parses and validates. Throws Error; place: a JSON pointer, or "line L, column C" when the text is no JSON.
 /// `directory` is where relative mesh paths start.
 SceneFile parse_scene(std::string_view text, const std::filesystem::path& directory);
-SceneFile scene_from_json(const nlohmann::json& json, const std::filesystem::path& directory);
+SceneFile scene_from_json(const nlohmann::ordered_json& json, const std::filesystem::path& directory);
+
+/// The whole of a file. Throws Error when it cannot be read.
+std::string read_text_file(const std::filesystem::path& file);
 
 /// Reads a file; Error's place is then "FILE: pointer".
 SceneFile read_scene(const std::filesystem::path& file);
 
+/// How points that came from an OBJ file are written: as the file's name, or in place (in a recording, which must stand alone).
+enum class MeshNotation { by_name, in_place };
+
 /// The scene as JSON: reads back to the same scene, bit for bit. Numbers in shortest round-trip form.
-nlohmann::ordered_json scene_to_json(const SceneFile& scene);
+nlohmann::ordered_json scene_to_json(const SceneFile& scene, MeshNotation notation = MeshNotation::by_name);
+
+/// A method's settings alone, as in a scene; of a scene of the given dimension. Throws Error under `pointer`.
+Method method_from_json(const nlohmann::ordered_json& json, const std::string& pointer, int dimension);
+
+/// Degrees, as files have them, and radians, as the code has them. Quarter turns are exact, and degrees that were read are
+/// written back so that they give the same radians bit for bit.
+double radians_from_degrees(double degrees);
+double degrees_from_radians(double radians);
 
 }  // namespace gjkdbg

@@ -1,0 +1,29 @@
+// Where two recordings part, and whether an answer is the expected one.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "recordings/recording.h"
+
+namespace gjkdbg {
+
+/// The first difference of two recordings.
+struct Difference {
+  std::size_t event = 0;            ///< index; the number of common events when only the results differ
+  std::string what;                 ///< "event 12", "result": for people
+  std::vector<std::string> fields;  ///< which of its fields differ; empty when the kinds differ or one side has ended
+  std::string left, right;          ///< both sides as JSON, empty where a side has ended
+};
+
+/// Compares events, then results, bit for bit (the sign of zero counts). Scene, method and generator are not compared.
+std::optional<Difference> first_difference(const Recording& a, const Recording& b);
+
+/// Runs the recording's scene again with the recording's method; the difference, if any (left: the recording).
+std::optional<Difference> verify(const Recording& recording);
+
+/// What of the expectation a result misses, a sentence each; empty when it is met.
+std::vector<std::string> missed_expectations(const SceneFile& scene, const Result& result);
+
+}  // namespace gjkdbg

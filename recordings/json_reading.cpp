@@ -1,0 +1,190 @@
+#include "recordings/json_reading.h"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace gjkdbg {
+
+void reject(const Place& place, const std::string& code, const std::string& message) { throw Error(code, message, place.pointer()); }
+
+namespace {
+
+std::string line_and_column(std::string_view text, std::size_t byte) {
+  const std::string_view before = text.substr(0, std::min(byte > 0 ? byte - 1 : 0, text.size()));
+  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+  const std::size_t newline = before.rfind('\n');
+  const std::size_t column = before.size() - (newline == std::string_view::npos ? 0 : newline + 1) + 1;
+  return "line " + std::to_string(line) + ", column " + std::to_string(column);
+}
+
+/// Builds a document as nlohmann's own parser does, but refuses what that lets pass in silence: a field given twice, and nesting so
+/// deep that only a hostile file has it.
+class JsonBuilder {
+ public:
+  using number_integer_t = Json::number_integer_t;
+  using number_unsigned_t = Json::number_unsigned_t;
+  using number_float_t = Json::number_float_t;
+  using string_t = Json::string_t;
+  using binary_t = Json::binary_t;
+
+  bool null() { return add(nullptr); }
+  bool boolean(bool x) { return add(x); }
+  bool number_integer(number_integer_t x) { return add(x); }
+  bool number_unsigned(number_unsigned_t x) { return add(x); }
+  bool number_float(number_float_t x, const string_t&) { return add(x); }
+  bool string(string_t& x) { return add(std::move(x)); }
+  bool binary(binary_t&) { return false; }
+  bool start_object(std::size_t) { return open(Json::object()); }
+  bool start_array(std::size_t) { return open(Json::array()); }
+  bool end_object() { return close(); }
+  bool end_array() { return close(); }
+  bool key(string_t& name) {
+    Json& object = *open_.back();
+    if (object.contains(name)) throw Error("duplicate-field", "the field \"" + name + "\" is given twice in one object");
+    member_ = &object[name];
+    return true;
+  }
+  bool parse_error(std::size_t, const std::string&, const Json::exception& e) {
+    if (const auto* syntax = dynamic_cast<const nlohmann::json::parse_error*>(&e)) throw *syntax;
+    throw Error("bad-json", e.what());
+  }
+  Json take() { return std::move(root_); }
+
+ private:
+  static constexpr std::size_t deepest = 64;
+
+  template <class T>
+  bool add(T&& value) {
+    place() = std::forward<T>(value);
+    return true;
+  }
+  Json& place() {
+    if (open_.empty()) return root_;
+    if (open_.back()->is_object()) return *member_;
+    open_.back()->push_back(nullptr);
+    return open_.back()->back();
+  }
+  bool open(Json&& empty) {
+    if (open_.size() >= deepest) throw Error("too-deep", "is nested too deeply");
+    Json& here = place();
+    here = std::move(empty);
+    open_.push_back(&here);
+    return true;
+  }
+  bool close() {
+    open_.pop_back();
+    return true;
+  }
+
+  Json root_;
+  std::vector<Json*> open_;  ///< never moved while open: only the innermost grows
+  Json* member_ = nullptr;
+};
+
+/// nlohmann's message without its own number and position: what was wrong, in a few words.
+std::string reason(const std::string& what) {
+  const std::size_t colon = what.find("syntax error");
+  std::string text = colon == std::string::npos ? what.substr(what.find(']') + 2) : what.substr(colon);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text.size() > 200 ? text.substr(0, 200) : text;
+}
+
+}  // namespace
+
+Json parse_json(std::string_view text) {
+  try {
+    JsonBuilder builder;
+    Json::sax_parse(text.begin(), text.end(), &builder);
+    return builder.take();
+  } catch (const nlohmann::json::parse_error& e) {
+    throw Error("bad-json", "is no JSON: " + reason(e.what()), line_and_column(text, e.byte));
+  } catch (const nlohmann::json::exception& e) {
+    throw Error("bad-json", reason(e.what()));
+  }
+}
+
+std::string nearest_name(std::string_view word, const std::vector<std::string_view>& candidates) {
+  const auto distance = [](std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), 0);
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i;
+      for (std::size_t j = 1; j <= b.size(); ++j) {
+        const std::size_t above = row[j];
+        row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+        diagonal = above;
+      }
+    }
+    return row[b.size()];
+  };
+  std::string best;
+  std::size_t least = std::max<std::size_t>(2, word.size() / 2) + 1;
+  for (const std::string_view candidate : candidates)
+    if (const std::size_t d = distance(word, candidate); d < least) least = d, best = candidate;
+  return best;
+}
+
+ObjectReader::ObjectReader(const Json& json, const Place& place) : json_(json), place_(place) {
+  if (!json.is_object()) reject(place, "wrong-type", "must be an object");
+}
+
+const Json* ObjectReader::optional(std::string_view key) {
+  known_.push_back(key);
+  const auto found = json_.find(key);
+  return found == json_.end() ? nullptr : &*found;
+}
+
+const Json& ObjectReader::required(std::string_view key) {
+  if (const Json* value = optional(key)) return *value;
+  reject(at(key), "missing-field", "is missing");
+}
+
+void ObjectReader::finish() {
+  for (const auto& [key, value] : json_.items()) {
+    if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    const std::string near = nearest_name(key, known_);
+    reject(at(key), "unknown-field", "is not a known field" + (near.empty() ? std::string() : "; did you mean \"" + near + "\"?"));
+  }
+}
+
+double read_number(const Json& json, const Place& place) {
+  if (!json.is_number()) reject(place, "wrong-type", "must be a number");
+  const double x = json.get<double>();
+  if (!std::isfinite(x)) reject(place, "non-finite", "must be a finite number");
+  return x;
+}
+
+int read_integer(const Json& json, const Place& place, int low, int high) {
+  const double x = read_number(json, place);
+  if (x != std::floor(x) || x < low || x > high)
+    reject(place, "out-of-range", "must be a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+  return static_cast<int>(x);
+}
+
+bool read_bool(const Json& json, const Place& place) {
+  if (!json.is_boolean()) reject(place, "wrong-type", "must be true or false");
+  return json.get<bool>();
+}
+
+std::string read_string(const Json& json, const Place& place) {
+  if (!json.is_string()) reject(place, "wrong-type", "must be a string");
+  return json.get<std::string>();
+}
+
+AnyVector read_vector(const Json& json, const Place& place, int size) {
+  const std::string count = size == 0 ? "1 to 3" : std::to_string(size);
+  if (!json.is_array()) reject(place, "wrong-type", "must be an array of " + count + " numbers");
+  if (size == 0 ? json.empty() || json.size() > 3 : json.size() != static_cast<std::size_t>(size))
+    reject(place, "wrong-dimension", "must have " + count + " numbers, not " + std::to_string(json.size()));
+  AnyVector v(static_cast<Eigen::Index>(json.size()));
+  for (std::size_t i = 0; i < json.size(); ++i) v[static_cast<Eigen::Index>(i)] = read_number(json[i], Place(place, i));
+  return v;
+}
+
+std::size_t read_name(const Json& json, const Place& place, std::initializer_list<std::string_view> names) {
+  return read_enum(json, place, std::vector<std::string_view>(names));
+}
+
+}  // namespace gjkdbg

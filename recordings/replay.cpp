@@ -1,0 +1,170 @@
+#include "recordings/replay.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace gjkdbg {
+namespace {
+
+/// What each event does to the frame.
+struct Apply {
+  Frame& frame;
+  std::size_t step;
+
+  void operator()(const recorded::GjkBegan& e) {
+    frame = Frame{};
+    frame.step = step;
+    frame.stage = Frame::Stage::gjk;
+    frame.direction = e.direction;
+  }
+
+  void operator()(const recorded::SupportQueried& e) {
+    frame.iteration = e.iteration;
+    frame.direction = e.direction;
+    frame.newest = e.vertex;
+    if (e.phase == Phase::gjk) {
+      frame.simplex.insert(frame.simplex.begin(), e.vertex);
+      frame.barycentric.clear();
+      frame.closest.reset();
+    } else {
+      frame.stage = e.phase == Phase::seed ? Frame::Stage::seed : Frame::Stage::epa;
+      if (e.phase == Phase::seed) frame.seeds.push_back(e.vertex);
+    }
+  }
+
+  void operator()(const recorded::SimplexReduced& e) {
+    frame.iteration = e.iteration;
+    frame.simplex = e.region;
+    for (const int v : e.before)
+      if (std::find(e.region.begin(), e.region.end(), v) == e.region.end()) frame.dropped.push_back(v);
+    frame.barycentric = e.barycentric;
+    frame.closest.reset();
+    if (e.closest.size() > 0) frame.closest = e.closest;
+    bounds(e.lower_bound, e.upper_bound);
+  }
+
+  void operator()(const recorded::GjkEnded& e) {
+    frame.iteration = e.iteration;
+    frame.gjk_status = e.status;
+    bounds(e.lower_bound, e.upper_bound);
+    frame.stage = Frame::Stage::done;
+  }
+
+  void operator()(const recorded::PolytopeSeeded& e) {
+    frame.stage = Frame::Stage::epa;
+    frame.simplex.clear(), frame.seeds.clear(), frame.barycentric.clear();
+    frame.closest.reset(), frame.lower_bound.reset(), frame.upper_bound.reset();
+    frame.iteration = 0;
+    frame.faces.clear();
+    add(e.faces);
+  }
+
+  void operator()(const recorded::FaceChosen& e) {
+    frame.stage = Frame::Stage::epa;
+    frame.iteration = e.iteration;
+    frame.chosen = e.face;
+  }
+
+  void operator()(const recorded::PolytopeGrown& e) {
+    frame.iteration = e.iteration;
+    for (const int f : e.removed) {
+      const auto found = frame.faces.find(f);
+      if (found == frame.faces.end()) continue;
+      frame.removed.push_back(found->second);
+      frame.faces.erase(found);
+    }
+    frame.horizon = e.horizon;
+    add(e.added);
+    // The depth's bounds, turned into those of the signed distance.
+    bounds(-e.upper_bound, -e.lower_bound);
+  }
+
+  void operator()(const recorded::EpaEnded& e) {
+    frame.iteration = e.iteration;
+    frame.epa_status = e.status;
+    if (e.face >= 0) frame.chosen = e.face;
+    frame.normal = e.normal;
+    frame.depth = e.depth;
+    frame.stage = Frame::Stage::done;
+  }
+
+  void operator()(const recorded::Warning&) {}
+
+ private:
+  void add(const std::vector<recorded::Face>& faces) {
+    for (const auto& f : faces) {
+      frame.faces[f.face] = {f.face, step, f.vertices, f.normal, f.distance};
+      frame.added.push_back(f.face);
+    }
+  }
+  void bounds(double lower, double upper) {
+    frame.lower_bound.reset(), frame.upper_bound.reset();
+    if (lower == lower) frame.lower_bound = lower;
+    if (upper == upper) frame.upper_bound = upper;
+  }
+};
+
+void apply(Frame& frame, const Recording& recording, std::size_t step) {
+  frame.step = step;
+  frame.dropped.clear(), frame.removed.clear(), frame.horizon.clear(), frame.added.clear();
+  std::visit(Apply{frame, step}, recording.events[step]);
+}
+
+std::map<int, std::vector<std::size_t>> index_vertices(const Recording& recording) {
+  std::map<int, std::vector<std::size_t>> index;
+  for (std::size_t i = 0; i < recording.events.size(); ++i)
+    if (const auto* e = std::get_if<recorded::SupportQueried>(&recording.events[i])) index[e->vertex].push_back(i);
+  return index;
+}
+
+/// Fills in the vertices the frame refers to. One that nobody asked for before this step is left out.
+void fill_vertices(Frame& frame, const Recording& recording, const std::map<int, std::vector<std::size_t>>& index) {
+  frame.vertices.clear();
+  const auto need = [&](int vertex) {
+    const auto found = index.find(vertex);
+    if (found == index.end()) return;
+    const auto after = std::upper_bound(found->second.begin(), found->second.end(), frame.step);
+    if (after == found->second.begin()) return;
+    const auto& e = std::get<recorded::SupportQueried>(recording.events[*(after - 1)]);
+    frame.vertices[vertex] = {vertex, *(after - 1), e.a, e.b, e.w};
+  };
+  if (frame.newest) need(*frame.newest);
+  for (const auto* list : {&frame.simplex, &frame.dropped, &frame.seeds})
+    for (const int v : *list) need(v);
+  for (const auto& [number, face] : frame.faces)
+    for (const int v : face.vertices) need(v);
+  for (const FrameFace& face : frame.removed)
+    for (const int v : face.vertices) need(v);
+}
+
+}  // namespace
+
+Frame frame_at(const Recording& recording, std::size_t step) {
+  if (step >= recording.events.size()) throw std::out_of_range("no such step");
+  Frame frame;
+  for (std::size_t i = 0; i <= step; ++i) apply(frame, recording, i);
+  fill_vertices(frame, recording, index_vertices(recording));
+  return frame;
+}
+
+Replay::Replay(const Recording& recording) : recording_(&recording), vertices_(index_vertices(recording)) {}
+
+const Frame& Replay::at(std::size_t step) {
+  if (step >= recording_->events.size()) throw std::out_of_range("no such step");
+  if (!started_ || step < current_.step || step > current_.step + snapshot_distance) {
+    const std::size_t snapshot = std::min(step / snapshot_distance, snapshots_.size());
+    started_ = snapshot > 0;
+    current_ = snapshot > 0 ? *snapshots_[snapshot - 1] : Frame{};
+  }
+  while (!started_ || current_.step < step) {
+    const std::size_t next = started_ ? current_.step + 1 : 0;
+    apply(current_, *recording_, next);
+    started_ = true;
+    if ((next + 1) % snapshot_distance == 0 && snapshots_.size() < (next + 1) / snapshot_distance)
+      snapshots_.push_back(std::make_shared<const Frame>(current_));
+  }
+  fill_vertices(current_, *recording_, vertices_);
+  return current_;
+}
+
+}  // namespace gjkdbg
