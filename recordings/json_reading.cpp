@@ -4,6 +4,8 @@
 #include <numeric>
 #include <vector>
 
+#include <simdjson.h>
+
 namespace gjkdbg {
 
 void reject(const Place& place, const std::string& code, const std::string& message) { throw Error(code, message, place.pointer()); }
@@ -90,9 +92,49 @@ std::string reason(const std::string& what) {
   return text.size() > 200 ? text.substr(0, 200) : text;
 }
 
-}  // namespace
+/// simdjson's document as ours. False when a field is given twice: the careful parser then says so.
+bool convert(const simdjson::dom::element& from, Json& to) {
+  using Type = simdjson::dom::element_type;
+  switch (from.type()) {
+    case Type::OBJECT: {
+      to = Json::object();
+      auto& members = to.get_ref<Json::object_t&>();
+      for (const auto& [key, value] : simdjson::dom::object(from)) {
+        for (const auto& member : members)
+          if (member.first == key) return false;
+        members.emplace_back(std::string(key), Json());
+        if (!convert(value, members.back().second)) return false;
+      }
+      return true;
+    }
+    case Type::ARRAY: {
+      to = Json::array();
+      auto& list = to.get_ref<Json::array_t&>();
+      const simdjson::dom::array array(from);
+      list.reserve(array.size());
+      for (const auto& value : array)
+        if (!convert(value, list.emplace_back())) return false;
+      return true;
+    }
+    case Type::INT64: return to = int64_t(from), true;
+    case Type::UINT64: return to = uint64_t(from), true;
+    case Type::DOUBLE: return to = double(from), true;
+    case Type::STRING: return to = std::string_view(from), true;
+    case Type::BOOL: return to = bool(from), true;
+    default: return to = nullptr, true;
+  }
+}
 
-Json parse_json(std::string_view text) {
+/// The fast way. False when anything at all is unusual.
+bool parse_fast(std::string_view text, Json& json) {
+  thread_local simdjson::dom::parser parser(std::size_t{1} << 31);
+  simdjson::dom::element document;
+  if (parser.parse(text.data(), text.size()).get(document) != simdjson::SUCCESS) return false;
+  return convert(document, json);
+}
+
+/// The careful way: slower, and able to say what is wrong and where.
+Json parse_carefully(std::string_view text) {
   try {
     JsonBuilder builder;
     Json::sax_parse(text.begin(), text.end(), &builder);
@@ -102,6 +144,13 @@ Json parse_json(std::string_view text) {
   } catch (const nlohmann::json::exception& e) {
     throw Error("bad-json", reason(e.what()));
   }
+}
+
+}  // namespace
+
+Json parse_json(std::string_view text) {
+  Json json;
+  return parse_fast(text, json) ? json : parse_carefully(text);
 }
 
 std::string nearest_name(std::string_view word, const std::vector<std::string_view>& candidates) {

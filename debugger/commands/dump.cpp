@@ -1,0 +1,40 @@
+// dump: runs a scene, writes the recording.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "debugger/commands/commands.h"
+#include "debugger/commands/input.h"
+#include "debugger/commands/output_file.h"
+#include "recordings/comparison.h"
+
+namespace gjkdbg {
+namespace {
+
+struct Dump {
+  std::string scene, output;
+  MethodFlags flags;
+
+  int run() const {
+    const std::string file = scene_path(scene).string();
+    SceneFile read = read_scene(file);
+    const Recording recording = record(read, flags.resolve(read, file));
+    write_output(output, recording_to_text(recording));
+    const auto missed = missed_expectations(read, recording.result);
+    for (const std::string& what : missed) std::cerr << "gjkdbg: " << file << ": /expect: " << what << "\n";
+    return missed.empty() ? exit_done : exit_difference;
+  }
+};
+
+}  // namespace
+
+void add_dump(CLI::App& app, Status& status) {
+  auto dump = std::make_shared<Dump>();
+  CLI::App* command = app.add_subcommand("dump", "Run a scene and write the recording");
+  command->add_option("SCENE", dump->scene, "scene file, or the name of a gallery scene")->required();
+  command->add_option("-o,--output", dump->output, "file to write; standard output unless given");
+  dump->flags.add_to(*command);
+  command->callback([dump, &status] { status = dump->run(); });
+}
+
+}  // namespace gjkdbg

@@ -1,0 +1,84 @@
+#include "debugger/commands/input.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdlib>
+
+#include "algo/solve.h"
+
+namespace gjkdbg {
+namespace fs = std::filesystem;
+
+fs::path gallery_directory() {
+  if (const char* given = std::getenv("GJKDBG_GALLERY")) return given;
+  std::error_code ignored;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+  const fs::path installed = program.parent_path().parent_path() / "share/gjkdbg/gallery";
+  if (!program.empty() && fs::exists(installed, ignored)) return installed;
+  return GJKDBG_SOURCE_GALLERY;
+}
+
+fs::path scene_path(const std::string& argument) {
+  std::error_code ignored;
+  if (fs::exists(argument, ignored) || argument.find('/') != std::string::npos) return argument;
+  const fs::path in_gallery = gallery_directory() / (argument + ".scene.json");
+  return fs::exists(in_gallery, ignored) ? in_gallery : fs::path(argument);
+}
+
+namespace {
+
+template <class Names>
+std::vector<std::string> list(const Names& names) {
+  return {names.begin(), names.end()};
+}
+
+template <class Enum, class Names>
+void override_name(std::optional<Enum>& setting, const std::optional<std::string>& flag, const Names& names) {
+  if (flag) setting = static_cast<Enum>(std::find(names.begin(), names.end(), *flag) - names.begin());
+}
+
+}  // namespace
+
+void MethodFlags::add_to(CLI::App& app) {
+  const auto group = "Method (overrides the scene's)";
+  app.add_option("--name,--method", name_, "algorithm")->check(CLI::IsMember(list(method_names)))->group(group);
+  app.add_option("--closest_point,--closest-point", closest_point_, "sub-algorithm")->check(CLI::IsMember(list(closest_point_names)))->group(group);
+  app.add_option("--penetration", penetration_, "what runs when the cores overlap")->check(CLI::IsMember(list(penetration_names)))->group(group);
+  app.add_option("--scalar", scalar_, "arithmetic")->check(CLI::IsMember(list(scalar_names)))->group(group);
+  app.add_option("--tolerance", tolerance_, "relative gap of the bounds at which to stop")->group(group);
+  app.add_option("--max_iterations,--max-iterations", max_iterations_, "of each phase")->group(group);
+  app.add_option("--initial_direction,--initial-direction", initial_direction_, "first search direction, e.g. 1,0,0")->delimiter(',')->group(group);
+}
+
+void MethodFlags::override_in(Method& method) const {
+  override_name(method.name, name_, method_names);
+  override_name(method.closest_point, closest_point_, closest_point_names);
+  override_name(method.penetration, penetration_, penetration_names);
+  override_name(method.scalar, scalar_, scalar_names);
+  if (tolerance_) method.tolerance = tolerance_;
+  if (max_iterations_) method.max_iterations = max_iterations_;
+  if (!initial_direction_.empty()) {
+    if (initial_direction_.size() > 3) throw Error("wrong-dimension", "must have as many numbers as the scene's dimension", "--initial_direction");
+    AnyVector d(static_cast<Eigen::Index>(initial_direction_.size()));
+    std::copy(initial_direction_.begin(), initial_direction_.end(), d.begin());
+    method.initial_direction = d;
+  }
+}
+
+Settings MethodFlags::resolve(const SceneFile& scene, const std::string& source) const {
+  Method method = scene.method;
+  override_in(method);
+  try {
+    return resolve_settings(method, scene.scene);
+  } catch (const Error& e) {
+    const std::string setting = e.where().starts_with("/method/") ? e.where().substr(8) : "";
+    const bool by_flag = (setting == "name" && name_) || (setting == "closest_point" && closest_point_) ||
+                         (setting == "penetration" && penetration_) || (setting == "scalar" && scalar_) ||
+                         (setting == "tolerance" && tolerance_) || (setting == "max_iterations" && max_iterations_) ||
+                         (setting == "initial_direction" && !initial_direction_.empty());
+    if (by_flag) throw Error(e.code(), e.message(), "--" + setting);
+    throw Error(e.code(), e.message(), (source.empty() ? "" : source + ": ") + e.where());
+  }
+}
+
+}  // namespace gjkdbg

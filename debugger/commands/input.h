@@ -1,0 +1,42 @@
+// What commands are given: scenes by file or gallery name, settings by flag.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "algo/settings.h"
+#include "recordings/gallery.h"
+#include "recordings/scene_file.h"
+
+namespace CLI {
+class App;
+}
+
+namespace gjkdbg {
+
+/// Where the gallery is: $GJKDBG_GALLERY, beside an installed program, or in the source tree.
+std::filesystem::path gallery_directory();
+
+/// The file a command's argument means: itself when it exists, else the gallery scene of that name, else itself (and reading it
+/// will say that it is not there).
+std::filesystem::path scene_path(const std::string& argument);
+
+/// The method's settings as flags, named as in a scene file; those given override the scene's.
+class MethodFlags {
+ public:
+  void add_to(CLI::App& app);
+  void override_in(Method& method) const;
+
+  /// The settings for a scene read from `source`; throws Error that names the flag, or the place in the file.
+  Settings resolve(const SceneFile& scene, const std::string& source) const;
+
+ private:
+  std::optional<std::string> name_, closest_point_, penetration_, scalar_;
+  std::optional<double> tolerance_;
+  std::optional<int> max_iterations_;
+  std::vector<double> initial_direction_;
+};
+
+}  // namespace gjkdbg

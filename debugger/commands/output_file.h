@@ -1,0 +1,32 @@
+// Output that is written whole or not at all.
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace gjkdbg {
+
+/// Writes to standard output when the path is empty or "-", else to a temporary file beside the target that takes its place in `commit`.
+/// Without a commit nothing is left behind. Throws Error when anything cannot be written.
+class OutputFile {
+ public:
+  explicit OutputFile(const std::string& path);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  void write(std::string_view text);
+  void commit();
+
+ private:
+  [[noreturn]] void fail();
+  std::filesystem::path target_, temporary_;
+  std::FILE* file_ = nullptr;
+};
+
+/// All of it, at once.
+void write_output(const std::string& path, std::string_view text);
+
+}  // namespace gjkdbg

@@ -1,0 +1,151 @@
+// query: a scene a line in, a result a line out, in order, in constant memory.
+//
+// Lines are read in blocks. Each block is cut into as many parts as there are jobs; the parts are answered at the
+// same time and written one after the other.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "algo/solve.h"
+#include "debugger/commands/commands.h"
+#include "debugger/commands/input.h"
+#include "debugger/commands/output_file.h"
+#include "recordings/comparison.h"
+#include "recordings/json_reading.h"
+#include "recordings/json_writing.h"
+
+namespace gjkdbg {
+namespace {
+
+constexpr std::size_t block_lines = 4096;
+
+/// What a part of a block came to.
+struct Answers {
+  std::string text;
+  std::size_t errors = 0, missed = 0;
+};
+
+/// The id of a line that may be broken elsewhere; "null" when it has none.
+std::string id_of(const Json& json) {
+  if (!json.is_object()) return "null";
+  const auto id = json.find("id");
+  return id == json.end() || id->is_structured() ? "null" : id->dump();
+}
+
+class Queries {
+ public:
+  std::string input, output;
+  int jobs = 1;
+  MethodFlags flags;
+
+  int run() {
+    std::ifstream file;
+    if (input != "-") {
+      file.open(input, std::ios::binary);
+      if (!file || std::filesystem::is_directory(input)) throw Error("missing-file", "cannot be read", input);
+      directory_ = std::filesystem::path(input).parent_path();
+    }
+    std::istream& in = input == "-" ? std::cin : file;
+    OutputFile out(output);
+    std::vector<std::string> lines(block_lines * static_cast<std::size_t>(jobs));
+    while (in) {
+      const std::size_t count = read_block(in, lines);
+      for (const Answers& part : answer_block(lines, count)) {
+        out.write(part.text);
+        errors_ += part.errors, missed_ += part.missed;
+      }
+      line_ += count;
+      progress(false);
+    }
+    out.commit();
+    progress(true);
+    return errors_ > 0 ? exit_bad_input : missed_ > 0 ? exit_difference : exit_done;
+  }
+
+ private:
+  static std::size_t read_block(std::istream& in, std::vector<std::string>& lines) {
+    std::size_t count = 0;
+    while (count < lines.size() && std::getline(in, lines[count])) ++count;
+    return count;
+  }
+
+  std::vector<Answers> answer_block(const std::vector<std::string>& lines, std::size_t count) const {
+    const auto parts = static_cast<std::size_t>(jobs);
+    std::vector<Answers> answers(parts);
+    std::vector<std::thread> threads;
+    const auto work = [&](std::size_t part) {
+      for (std::size_t i = count * part / parts; i < count * (part + 1) / parts; ++i) answer(lines[i], line_ + i + 1, answers[part]);
+    };
+    for (std::size_t part = 1; part < parts; ++part) threads.emplace_back(work, part);
+    work(0);
+    for (std::thread& thread : threads) thread.join();
+    return answers;
+  }
+
+  void answer(const std::string& line, std::size_t number, Answers& answers) const {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) return;
+    Json json;
+    try {
+      json = parse_json(line);
+      const SceneFile scene = scene_from_json(json, directory_);
+      const Result result = solve(scene.scene, flags.resolve(scene, ""));
+      append_result(answers.text, result, scene.scene.query, scene.id);
+      answers.text += '\n';
+      if (scene.expect && !missed_expectations(scene, result).empty()) ++answers.missed;
+    } catch (const Error& e) {
+      ++answers.errors;
+      append_error(answers.text, id_of(json), number, e);
+    }
+  }
+
+  static void append_error(std::string& out, const std::string& id, std::size_t line, const Error& e) {
+    out += "{\"id\":" + id + ",\"line\":" + std::to_string(line) + ",\"error\":{\"code\":";
+    append_string(out, e.code());
+    out += ",\"message\":";
+    append_string(out, e.message());
+    out += ",\"where\":";
+    append_string(out, e.where());
+    out += "}}\n";
+  }
+
+  /// A line on the terminal, at most five times a second; nothing where standard error is no terminal.
+  void progress(bool last) {
+    if (isatty(STDERR_FILENO) == 0) {
+      if (last && errors_ + missed_ > 0) std::cerr << "gjkdbg: " << summary() << "\n";
+      return;
+    }
+    const auto now = std::chrono::steady_clock::now();
+    if (!last && now - shown_ < std::chrono::milliseconds(200)) return;
+    shown_ = now;
+    const double seconds = std::chrono::duration<double>(now - began_).count();
+    std::cerr << "\r" << summary() << ", " << static_cast<long>(static_cast<double>(line_) / std::max(seconds, 1e-9)) << " a second\033[K"
+              << (last ? "\n" : "") << std::flush;
+  }
+
+  std::string summary() const {
+    return input + ": " + std::to_string(line_) + " lines, " + std::to_string(errors_) + " bad, " + std::to_string(missed_) + " not as expected";
+  }
+
+  std::filesystem::path directory_;
+  std::size_t line_ = 0, errors_ = 0, missed_ = 0;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now(), shown_{};
+};
+
+}  // namespace
+
+void add_query(CLI::App& app, Status& status) {
+  auto query = std::make_shared<Queries>();
+  CLI::App* command = app.add_subcommand("query", "A scene a line in (JSON lines), a result a line out, in order");
+  command->add_option("PAIRS", query->input, "file of scenes, one a line; - for standard input")->required();
+  command->add_option("-o,--output", query->output, "file to write; standard output unless given");
+  command->add_option("-j,--jobs", query->jobs, "threads")->check(CLI::Range(1, 256));
+  query->flags.add_to(*command);
+  command->callback([query, &status] { status = query->run(); });
+}
+
+}  // namespace gjkdbg

@@ -1,0 +1,33 @@
+// scenes: the gallery, a line each.
+#include <CLI/CLI.hpp>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+
+#include "debugger/commands/commands.h"
+#include "debugger/commands/input.h"
+
+namespace gjkdbg {
+namespace {
+
+int run_scenes() {
+  const Gallery gallery = read_gallery(gallery_directory());
+  for (const Lesson& lesson : gallery.lessons) {
+    std::cout << lesson.title << "\n";
+    for (const std::string& name : lesson.scenes) {
+      const Scene scene = read_scene(gallery.file(name)).scene;
+      std::cout << "  " << std::left << std::setw(38) << name << " " << scene.dimension << "D  " << std::setw(12)
+                << query_names[static_cast<std::size_t>(scene.query)] << scene.description << "\n";
+    }
+  }
+  return exit_done;
+}
+
+}  // namespace
+
+void add_scenes(CLI::App& app, Status& status) {
+  CLI::App* command = app.add_subcommand("scenes", "The gallery, a line each");
+  command->callback([&status] { status = run_scenes(); });
+}
+
+}  // namespace gjkdbg

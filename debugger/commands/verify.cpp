@@ -1,0 +1,63 @@
+// verify: runs recordings again, names the first event that differs. diff: where two recordings part.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "debugger/commands/commands.h"
+#include "recordings/comparison.h"
+
+namespace gjkdbg {
+namespace {
+
+void print(const Difference& d, const std::string& left_name, const std::string& right_name) {
+  std::cout << d.what;
+  for (std::size_t i = 0; i < d.fields.size(); ++i) std::cout << (i == 0 ? ": " : ", ") << d.fields[i];
+  std::cout << "\n  " << left_name << ": " << (d.left.empty() ? "(has ended)" : d.left) << "\n  " << right_name << ": "
+            << (d.right.empty() ? "(has ended)" : d.right) << "\n";
+}
+
+int run_verify(const std::vector<std::string>& files) {
+  int status = exit_done;
+  for (const std::string& file : files) {
+    const Recording recording = read_recording(file);
+    if (const auto difference = verify(recording)) {
+      std::cout << file << ": differs at ";
+      print(*difference, "recorded", "now");
+      status = exit_difference;
+    } else {
+      std::cout << file << ": same, " << recording.events.size() << " events\n";
+    }
+  }
+  return status;
+}
+
+int run_diff(const std::string& a, const std::string& b) {
+  const Recording left = read_recording(a), right = read_recording(b);
+  const auto difference = first_difference(left, right);
+  if (!difference) {
+    std::cout << "same, " << left.events.size() << " events\n";
+    return exit_done;
+  }
+  std::cout << "differ at ";
+  print(*difference, a, b);
+  return exit_difference;
+}
+
+}  // namespace
+
+void add_verify(CLI::App& app, Status& status) {
+  auto files = std::make_shared<std::vector<std::string>>();
+  CLI::App* command = app.add_subcommand("verify", "Run recordings again; name the first event that differs");
+  command->add_option("RECORDING", *files, "recordings")->required();
+  command->callback([files, &status] { status = run_verify(*files); });
+}
+
+void add_diff(CLI::App& app, Status& status) {
+  auto files = std::make_shared<std::pair<std::string, std::string>>();
+  CLI::App* command = app.add_subcommand("diff", "The first event where two recordings part, and both sides of it");
+  command->add_option("A", files->first, "recording")->required();
+  command->add_option("B", files->second, "recording")->required();
+  command->callback([files, &status] { status = run_diff(files->first, files->second); });
+}
+
+}  // namespace gjkdbg
