@@ -20,7 +20,7 @@ namespace gjkdbg {
 template <class S>
 struct EpaOptions {
   S tolerance = S(1e-12);  ///< relative gap of the bounds at which the loop ends
-  int max_iterations = 256;
+  int max_iterations = 512;
 };
 
 template <int D, class S>
@@ -237,12 +237,28 @@ class Epa {
     return result_;
   }
 
+  /// The origin's projection on the answering plane, as a combination of a face's vertices. Where that plane carries several
+  /// faces, the projection lies in one of them only, not always in the one that was asked first.
   void set_points() {
-    const auto weights = polytope_.weights(best_vertices_, result_.normal);
+    auto weights = polytope_.weights(best_vertices_, result_.normal);
+    S miss = projection_error(best_vertices_, weights);
+    if (miss > floor_) {
+      for (const Face& face : polytope_.faces()) {
+        if (face.removed || face.distance > best_height_ + floor_ || face.normal.dot(result_.normal) < S(0.999)) continue;
+        const auto others = polytope_.weights(face.vertices, result_.normal);
+        if (const S error = projection_error(face.vertices, others); error < miss) miss = error, weights = others, best_vertices_ = face.vertices;
+      }
+    }
     for (int i = 0; i < D; ++i) {
       result_.point_a += weights[i] * polytope_.points()[best_vertices_[i]].a;
       result_.point_b += weights[i] * polytope_.points()[best_vertices_[i]].b;
     }
+  }
+
+  S projection_error(const std::array<int, D>& vertices, const std::array<S, D>& weights) const {
+    V w = -result_.normal * best_height_;
+    for (int i = 0; i < D; ++i) w += weights[i] * polytope_.points()[vertices[i]].w;
+    return w.norm();
   }
 
   // --- The trace: indices into the polytope's points become vertex numbers ---------------------------------------

@@ -29,7 +29,7 @@ template <int D, class S>
 struct GjkOptions {
   GjkGoal goal = GjkGoal::signed_distance;
   S tolerance = S(1e-12);  ///< relative gap of the bounds at which the loop ends
-  int max_iterations = 256;
+  int max_iterations = 512;
   Vector<D, S> direction = Vector<D, S>::Unit(0);  ///< first search direction, not zero
 };
 

@@ -41,7 +41,7 @@ struct Settings {
   Penetration penetration = Penetration::epa;
   Scalar scalar = Scalar::double_precision;
   double tolerance = 1e-12;
-  int max_iterations = 256;
+  int max_iterations = 512;
   std::optional<AnyVector> initial_direction;  ///< unset: from body 0's reference point towards body 1's
 };
 

@@ -1,0 +1,222 @@
+// Random pairs against oracles that share nothing with algo/: exact rationals for polytopes and their roundings, 50-digit
+// arithmetic and a search over directions for the curved shapes.
+//
+// GJKDBG_PAIRS sets how many polytope pairs (20000 unless set; the sanitizer run takes fewer).
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "algo/contact.h"
+#include "algo/minkowski_difference.h"
+#include "algo/solve.h"
+#include "shapes/convex.h"
+#include "tests/oracle/exact_polytopes.h"
+#include "tests/oracle/wide_gjk.h"
+#include "tests/support/random_scenes.h"
+
+namespace gjkdbg {
+namespace {
+
+int pairs() {
+  const char* given = std::getenv("GJKDBG_PAIRS");
+  return given ? std::atoi(given) : 20000;
+}
+
+Result answer(Scene scene, Query query, MethodName name = MethodName::gjk) {
+  scene.query = query;
+  Method method;
+  method.name = name;
+  return solve(scene, resolve_settings(method, scene));
+}
+
+std::string where(int dimension, Family family, int k) {
+  return std::to_string(dimension) + "D family " + std::to_string(static_cast<int>(family)) + " pair " + std::to_string(k);
+}
+
+/// How far a world point is outside a body (negative inside), by the exact oracle.
+double outside(const Scene& scene, int body, const AnyVector& point) {
+  Scene probe = scene;
+  Body& other = probe.bodies[static_cast<std::size_t>(1 - body)];
+  other.shape = {PointSet{PointSetKind::point, {AnyVector::Zero(scene.dimension)}, {}}, 0};
+  other.pose = identity_pose(scene.dimension);
+  other.pose.position = point;
+  return oracle::signed_distance(probe)->signed_distance;
+}
+
+struct Errors {
+  double distance = 0, witness = 0, gap = 0;
+};
+
+/// All that a penetration result claims, against the exact answer.
+void check(const Scene& scene, const Result& r, const oracle::Answer& exact, Errors& worst, bool probe_witnesses) {
+  const double size = size_of(scene);
+  ASSERT_TRUE(r.signed_distance && r.normal && r.witness_a && r.witness_b && r.lower_bound && r.upper_bound);
+  const double error = std::abs(*r.signed_distance - exact.signed_distance) / std::max(size, std::abs(exact.signed_distance));
+  worst.distance = std::max(worst.distance, error);
+  EXPECT_LE(error, 1e-10) << *r.signed_distance << " for " << exact.signed_distance;
+  const double slack = 1e-15 * std::abs(exact.signed_distance);
+  EXPECT_LE(*r.lower_bound, exact.signed_distance + slack);
+  EXPECT_GE(*r.upper_bound, exact.signed_distance - slack);
+  worst.gap = std::max(worst.gap, (*r.upper_bound - *r.lower_bound) / size);
+  EXPECT_LE(*r.upper_bound - *r.lower_bound, 1e-10 * std::max(size, std::abs(exact.signed_distance)));
+  EXPECT_NEAR(r.normal->norm(), 1, 1e-12);
+  const double place = size + scene.bodies[0].pose.position.norm();
+  const double off = (*r.witness_b - *r.witness_a - *r.signed_distance * *r.normal).norm() / place;
+  worst.witness = std::max(worst.witness, off);
+  EXPECT_LE(off, 1e-14);
+  if (!probe_witnesses) return;
+  EXPECT_LE(outside(scene, 0, *r.witness_a), 1e-10 * size + 1e-15 * place);
+  EXPECT_LE(outside(scene, 1, *r.witness_b), 1e-10 * size + 1e-15 * place);
+}
+
+void check_booleans(const Scene& scene, const oracle::Answer& exact) {
+  if (std::abs(exact.signed_distance) <= 1e-12 * size_of(scene)) return;
+  for (const Query query : {Query::intersect, Query::distance, Query::penetration, Query::contact})
+    EXPECT_EQ(answer(scene, query).intersecting, exact.intersecting) << query_names[static_cast<std::size_t>(query)] << " " << exact.signed_distance;
+  const Result distance = answer(scene, Query::distance);
+  EXPECT_NEAR(*distance.signed_distance, std::max(0.0, exact.signed_distance), 1e-10 * std::max(size_of(scene), exact.signed_distance));
+}
+
+TEST(RandomPairs, PolytopesAgreeWithExactArithmetic) {
+  RandomScenes random(1);
+  Errors worst;
+  for (int k = 0; k < pairs(); ++k) {
+    const int dimension = k % 10 == 0 ? 1 : k % 10 < 4 ? 2 : 3;
+    const auto family = static_cast<Family>(k / 10 % family_count);
+    const Scene scene = random.scene(dimension, family, true);
+    const auto exact = oracle::signed_distance(scene);
+    ASSERT_TRUE(exact);
+    SCOPED_TRACE(where(dimension, family, k));
+    const Result r = answer(scene, Query::penetration);
+    EXPECT_TRUE(r.status == "converged" || r.status == "flat" || r.status == "separated") << r.status;
+    check(scene, r, *exact, worst, k % 23 == 0);
+    check_booleans(scene, *exact);
+    if (testing::Test::HasFailure()) break;  // the first is enough, and its number names it
+  }
+  std::printf("worst error %.2g, witness %.2g, gap %.2g of the size\n", worst.distance, worst.witness, worst.gap);
+}
+
+TEST(RandomPairs, ContactPointsLieOnBothBodies) {
+  RandomScenes random(2);
+  int found = 0;
+  for (int k = 0; k < pairs() / 10; ++k) {
+    const int dimension = k % 3 == 0 ? 2 : 3;
+    const auto family = static_cast<Family>(k / 3 % 3);
+    const Scene scene = random.scene(dimension, family, true);
+    const Result r = answer(scene, Query::contact);
+    SCOPED_TRACE(where(dimension, family, k));
+    ASSERT_TRUE(r.contacts);
+    EXPECT_EQ(r.contacts->empty(), !r.intersecting);
+    const double size = size_of(scene);
+    for (const ContactPoint& c : *r.contacts) {
+      ++found;
+      EXPECT_GE(c.depth, 0);
+      EXPECT_LE(c.depth, -*r.signed_distance + 1e-9 * size);
+      EXPECT_LE((c.point_a - c.point_b - c.depth * *r.normal).norm(), 1e-9 * size);
+      if (k % 11 == 0) {
+        EXPECT_LE(outside(scene, 0, c.point_a), 1e-8 * size);
+        EXPECT_LE(outside(scene, 1, c.point_b), 1e-8 * size);
+      }
+    }
+    if (testing::Test::HasFailure()) break;
+  }
+  EXPECT_GT(found, pairs() / 100);
+}
+
+/// Support planes of A - B: no depth may exceed any of them, and the gap must reach every one.
+template <int D>
+struct Planes {
+  Convex<D, double> a, b;
+  MinkowskiDifference<D, double, Convex<D, double>> difference;
+  Matrix<D, double> frame;
+
+  explicit Planes(const Scene& s)
+      : a(s.bodies[0].shape), b(s.bodies[1].shape),
+        difference(a, b, relative_pose<D, double>(s.bodies[0].pose, a.reference(), s.bodies[1].pose, b.reference(), 1)),
+        frame(s.bodies[0].pose.matrix) {}
+  /// The least signed distance that the plane along a unit world direction allows.
+  double bound(const Vector<D, double>& world) {
+    const Vector<D, double> n = frame.transpose() * world;
+    return -(n.dot(difference.support(n).w) + difference.radius());
+  }
+};
+
+/// No direction may prove the answer wrong: random ones, then downhill from the answer's own.
+template <int D>
+double best_refutation(const Scene& scene, const Result& r, RandomScenes& random) {
+  Planes<D> planes(scene);
+  const auto random_direction = [&] {
+    Vector<D, double> d;
+    for (double& x : d) x = random.uniform(-1, 1);
+    return d;
+  };
+  Vector<D, double> best = *r.normal;
+  double most = planes.bound(best);
+  for (int i = 0; i < 40; ++i)
+    if (const Vector<D, double> d = random_direction().normalized(); planes.bound(d) > most) most = planes.bound(d), best = d;
+  double step = 0.3;
+  for (int i = 0; i < 120; ++i) {
+    const Vector<D, double> d = (best + step * random_direction()).normalized();
+    if (const double bound = planes.bound(d); bound > most) {
+      most = bound, best = d;
+    } else {
+      step *= 0.9;
+    }
+  }
+  return most;
+}
+
+TEST(RandomPairs, NoPlaneRefutesACurvedAnswer) {
+  RandomScenes random(3);
+  int limits = 0;
+  for (int k = 0; k < pairs() / 4; ++k) {
+    const int dimension = k % 4 == 0 ? 2 : 3;
+    const auto family = static_cast<Family>(k / 4 % (family_count - 1));
+    const Scene scene = random.scene(dimension, family, false);
+    const Result r = answer(scene, Query::penetration);
+    SCOPED_TRACE(where(dimension, family, k));
+    const double size = size_of(scene), sd = *r.signed_distance;
+    ASSERT_TRUE(std::isfinite(sd));
+    EXPECT_NE(r.status, "stalled");
+    EXPECT_LE(*r.lower_bound, *r.upper_bound);
+    const double refuted = dimension == 2 ? best_refutation<2>(scene, r, random) : best_refutation<3>(scene, r, random);
+    EXPECT_LE(refuted, *r.upper_bound + 1e-12 * size);
+    if (r.status == "iteration_limit") {
+      // Only where a whole ring of directions ties, which integer coordinates make: faces cannot close in on all of it.
+      ++limits;
+      EXPECT_EQ(family, Family::lattice);
+      EXPECT_LE(*r.upper_bound - *r.lower_bound, 1e-4 * size);
+      continue;
+    }
+    EXPECT_LE(*r.upper_bound - *r.lower_bound, 1e-6 * std::max(size, std::abs(sd)));
+    EXPECT_LE(refuted, sd + 1e-6 * size);
+    EXPECT_GE(dimension == 2 ? Planes<2>(scene).bound(*r.normal) : Planes<3>(scene).bound(*r.normal), sd - 1e-6 * size);
+    if (std::abs(sd) > 1e-9 * size) {
+      EXPECT_EQ(answer(scene, Query::intersect).intersecting, sd <= 0);
+      EXPECT_EQ(answer(scene, Query::distance).intersecting, sd <= 0);
+    }
+    if (testing::Test::HasFailure()) break;
+  }
+  EXPECT_LE(limits, pairs() / 400);
+}
+
+TEST(RandomPairs, CurvedDistancesAgreeWithFiftyDigits) {
+  RandomScenes random(4);
+  int compared = 0;
+  for (int k = 0; k < pairs() / 20; ++k) {
+    const int dimension = k % 4 == 0 ? 2 : 3;
+    const Scene scene = random.scene(dimension, k % 2 == 0 ? Family::general : Family::lattice, false);
+    const Result r = answer(scene, Query::penetration);
+    const double size = size_of(scene);
+    if (*r.signed_distance < 1e-3 * size) continue;
+    const double wide = oracle::wide_distance(scene);
+    SCOPED_TRACE(where(dimension, Family::general, k));
+    EXPECT_NEAR(*r.signed_distance, wide, 1e-6 * size);
+    ++compared;
+    if (testing::Test::HasFailure()) break;
+  }
+  EXPECT_GT(compared, pairs() / 100);
+}
+
+}  // namespace
+}  // namespace gjkdbg
