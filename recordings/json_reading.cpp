@@ -43,7 +43,8 @@ class JsonBuilder {
   bool end_array() { return close(); }
   bool key(string_t& name) {
     Json& object = *open_.back();
-    if (object.contains(name)) throw Error("duplicate-field", "the field \"" + name + "\" is given twice in one object");
+    keys_.back() = name;
+    if (object.contains(name)) throw Error("duplicate-field", "is given twice", pointer());
     member_ = &object[name];
     return true;
   }
@@ -72,15 +73,24 @@ class JsonBuilder {
     Json& here = place();
     here = std::move(empty);
     open_.push_back(&here);
+    keys_.emplace_back();
     return true;
   }
   bool close() {
     open_.pop_back();
+    keys_.pop_back();
     return true;
+  }
+  std::string pointer() const {
+    std::string out;
+    for (std::size_t i = 0; i < open_.size(); ++i)
+      out += "/" + (open_[i]->is_object() ? keys_[i] : std::to_string(open_[i]->size() - 1));
+    return out;
   }
 
   Json root_;
   std::vector<Json*> open_;  ///< never moved while open: only the innermost grows
+  std::vector<std::string> keys_;  ///< the latest key of each
   Json* member_ = nullptr;
 };
 

@@ -1,0 +1,223 @@
+// What must not change the answer: the order of bodies and vertices, where the pair lies, the unit of length, the first direction,
+// and whether anyone is watching.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "algo/epa.h"
+#include "recordings/gallery.h"
+#include "recordings/json_writing.h"
+#include "recordings/recording.h"
+#include "tests/support/random_scenes.h"
+
+namespace gjkdbg {
+namespace {
+
+constexpr int rounds = 400;
+
+Result answer(const Scene& scene, const Method& method = {}) { return solve(scene, resolve_settings(method, scene)); }
+
+std::string text(const Result& r) {
+  std::string out;
+  append_result(out, r, Query::penetration);
+  return out;
+}
+
+template <class Check>
+void for_random_scenes(unsigned seed, Check check) {
+  RandomScenes random(seed);
+  for (int k = 0; k < rounds && !testing::Test::HasFailure(); ++k) {
+    const int dimension = 1 + k % 3;
+    SCOPED_TRACE("scene " + std::to_string(k));
+    check(random, random.scene(dimension, static_cast<Family>(k / 3 % family_count), true));
+  }
+}
+
+double tolerance(const Scene& scene, const Result& r) { return 1e-12 * std::max(size_of(scene), std::abs(*r.signed_distance)); }
+
+TEST(Invariance, SwappingTheBodies) {
+  for_random_scenes(11, [](RandomScenes&, Scene scene) {
+    const Result r = answer(scene);
+    std::swap(scene.bodies[0], scene.bodies[1]);
+    EXPECT_NEAR(*answer(scene).signed_distance, *r.signed_distance, tolerance(scene, r));
+  });
+}
+
+TEST(Invariance, PermutingTheVertices) {
+  for_random_scenes(12, [](RandomScenes& random, Scene scene) {
+    const Result r = answer(scene);
+    std::mt19937 order(static_cast<unsigned>(random.integer(0, 1000000)));
+    for (Body& body : scene.bodies)
+      if (auto* set = std::get_if<PointSet>(&body.shape.geometry)) std::shuffle(set->points.begin(), set->points.end(), order);
+    EXPECT_NEAR(*answer(scene).signed_distance, *r.signed_distance, tolerance(scene, r));
+  });
+}
+
+TEST(Invariance, RigidMotions) {
+  for_random_scenes(13, [](RandomScenes& random, Scene scene) {
+    if (scene.dimension != 3) return;
+    const Result r = answer(scene);
+    const Eigen::Matrix3d turn =
+        Eigen::Quaterniond(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.1, 1)).normalized().toRotationMatrix();
+    const Eigen::Vector3d shift(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    double far = 1;
+    for (Body& body : scene.bodies) {
+      body.pose.position = turn * body.pose.position + shift;
+      body.pose.matrix = turn * body.pose.matrix;
+      far = std::max(far, body.pose.position.norm());
+    }
+    EXPECT_NEAR(*answer(scene).signed_distance, *r.signed_distance, tolerance(scene, r) + 1e-14 * far);
+  });
+}
+
+void scale(AnyVector& v, double s) { v *= s; }
+
+void scale(Shape& shape, double s) {
+  shape.margin *= s;
+  if (auto* ball = std::get_if<Sphere>(&shape.geometry)) ball->radius *= s;
+  if (auto* box = std::get_if<Box>(&shape.geometry)) scale(box->min, s), scale(box->max, s);
+  if (auto* capsule = std::get_if<Capsule>(&shape.geometry)) capsule->radius *= s, capsule->half_height *= s;
+  if (auto* set = std::get_if<PointSet>(&shape.geometry))
+    for (AnyVector& p : set->points) scale(p, s);
+  if (auto* sum = std::get_if<Sum>(&shape.geometry)) {
+    for (auto* part : {&sum->first, &sum->second}) {
+      Shape scaled = **part;
+      scale(scaled, s);
+      *part = std::make_shared<const Shape>(scaled);
+    }
+  }
+}
+
+TEST(Invariance, PowersOfTwoBitForBit) {
+  for_random_scenes(14, [](RandomScenes& random, Scene scene) {
+    const Result r = answer(scene);
+    const double s = std::ldexp(1.0, random.integer(-90, 90));
+    for (Body& body : scene.bodies) scale(body.shape, s), scale(body.pose.position, s);
+    Result scaled = answer(scene);
+    for (auto* x : {&scaled.signed_distance, &scaled.lower_bound, &scaled.upper_bound}) **x /= s;
+    for (auto* v : {&scaled.witness_a, &scaled.witness_b}) **v /= s;
+    EXPECT_EQ(text(scaled), text(r)) << "scaled by " << s;
+  });
+}
+
+TEST(Invariance, AnyInitialDirection) {
+  for_random_scenes(15, [](RandomScenes& random, const Scene& scene) {
+    const Result r = answer(scene);
+    for (int i = 0; i < 5; ++i) {
+      Method method;
+      method.initial_direction = AnyVector(scene.dimension);
+      for (double& x : *method.initial_direction) x = random.uniform(-1, 1) * std::pow(10, random.uniform(-20, 20));
+      EXPECT_NEAR(*answer(scene, method).signed_distance, *r.signed_distance, tolerance(scene, r));
+    }
+  });
+}
+
+std::vector<SceneFile> gallery_scenes() {
+  const Gallery gallery = read_gallery(GJKDBG_GALLERY);
+  std::vector<SceneFile> scenes;
+  for (const Lesson& lesson : gallery.lessons)
+    for (const std::string& name : lesson.scenes) scenes.push_back(read_scene(gallery.file(name)));
+  return scenes;
+}
+
+TEST(Trace, WatchingChangesNothing) {
+  for (const SceneFile& scene : gallery_scenes()) {
+    for (const Scalar scalar : {Scalar::double_precision, Scalar::float_precision}) {
+      Method method = scene.method;
+      method.scalar = scalar;
+      const Settings settings = resolve_settings(method, scene.scene);
+      EXPECT_EQ(text(solve(scene.scene, settings)), text(record(scene, settings).result)) << scene.scene.name;
+    }
+  }
+}
+
+/// Every phase that begins ends once; numbers are given out once and never used before.
+TEST(Trace, EveryPhaseEndsExactlyOnce) {
+  for (const SceneFile& scene : gallery_scenes()) {
+    SCOPED_TRACE(scene.scene.name);
+    const Recording recording = record(scene);
+    bool gjk = false, epa = false;
+    int next_vertex = 0, last_face = -1;
+    for (const Event& event : recording.events) {
+      if (std::holds_alternative<recorded::GjkBegan>(event)) {
+        EXPECT_FALSE(gjk || epa);
+        gjk = true;
+      } else if (const auto* query = std::get_if<recorded::SupportQueried>(&event)) {
+        EXPECT_EQ(query->vertex, next_vertex++);
+        EXPECT_EQ(gjk, query->phase == Phase::gjk);
+        if (query->phase != Phase::gjk) epa = true;
+      } else if (std::holds_alternative<recorded::GjkEnded>(event)) {
+        EXPECT_TRUE(gjk);
+        gjk = false;
+      } else if (const auto* seeded = std::get_if<recorded::PolytopeSeeded>(&event)) {
+        EXPECT_FALSE(gjk);
+        epa = true;
+        for (const auto& f : seeded->faces) EXPECT_GT(f.face, last_face), last_face = f.face;
+      } else if (const auto* grown = std::get_if<recorded::PolytopeGrown>(&event)) {
+        EXPECT_TRUE(epa);
+        for (const auto& f : grown->added) EXPECT_GT(f.face, last_face), last_face = f.face;
+      } else if (std::holds_alternative<recorded::EpaEnded>(event)) {
+        EXPECT_TRUE(epa);
+        epa = false;
+      }
+    }
+    EXPECT_FALSE(gjk || epa);
+    EXPECT_FALSE(recording.events.empty());
+  }
+}
+
+TEST(Trace, EveryStatusIsReachedByTheGallery) {
+  std::vector<bool> gjk(gjk_status_names.size()), epa(epa_status_names.size());
+  for (const SceneFile& scene : gallery_scenes())
+    for (const Event& event : record(scene).events) {
+      if (const auto* e = std::get_if<recorded::GjkEnded>(&event)) gjk[static_cast<std::size_t>(e->status)] = true;
+      if (const auto* e = std::get_if<recorded::EpaEnded>(&event)) epa[static_cast<std::size_t>(e->status)] = true;
+    }
+  for (std::size_t i = 0; i < gjk.size(); ++i) EXPECT_TRUE(gjk[i]) << "gjk " << gjk_status_names[i];
+  for (std::size_t i = 0; i < epa.size(); ++i) EXPECT_TRUE(epa[i] || epa_status_names[i] == "stalled") << "epa " << epa_status_names[i];
+}
+
+/// A triangle that claims to round nothing: where n . w and the face's distance differ by one rounding, EPA may not stop, and
+/// the vertex it is given is one it has.
+struct Exacting {
+  static constexpr int D = 2;
+  using S = double;
+  std::array<Vector<2, double>, 3> corners;
+  int calls = 3;
+
+  double rounding_floor() const { return 1e-300; }
+  double radius() const { return 0; }
+  SupportPoint<2, double> support(const Vector<2, double>& d) {
+    SupportPoint<2, double> p;
+    p.w = *std::max_element(corners.begin(), corners.end(), [&](const auto& x, const auto& y) { return d.dot(x) < d.dot(y); });
+    p.a = p.w, p.b.setZero(), p.vertex = calls++;
+    return p;
+  }
+};
+
+TEST(Trace, EpaStallsWherePrecisionEnds) {
+  RandomScenes random(7);
+  int stalled = 0;
+  for (int k = 0; k < 200; ++k) {
+    Exacting difference{{Vector<2, double>(-random.uniform(1, 2), -random.uniform(1, 2)), {random.uniform(1, 2), -random.uniform(1, 2)}, {random.uniform(-1, 1), random.uniform(3, 4)}}};
+    Simplex<2, double> simplex;
+    for (const auto& w : difference.corners) {
+      SupportPoint<2, double> p;
+      p.w = p.a = w, p.b.setZero(), p.vertex = simplex.size;
+      simplex.add(p);
+    }
+    EpaOptions<double> options;
+    options.tolerance = 1e-300;
+    EpaWorkspace<2, double> workspace;
+    NoTrace trace;
+    const auto result = epa(difference, simplex, options, workspace, trace);
+    EXPECT_TRUE(result.status == EpaStatus::stalled || result.status == EpaStatus::converged);
+    EXPECT_NEAR(result.depth, result.normal.dot(difference.support(result.normal).w), 1e-15);
+    stalled += result.status == EpaStatus::stalled;
+  }
+  EXPECT_GT(stalled, 0);
+}
+
+}  // namespace
+}  // namespace gjkdbg

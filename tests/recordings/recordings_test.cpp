@@ -1,0 +1,258 @@
+// Files: there and back bit for bit, replay, damage.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "recordings/comparison.h"
+#include "recordings/gallery.h"
+#include "recordings/json_writing.h"
+#include "recordings/replay.h"
+#include "tests/oracle/exact_polytopes.h"
+#include "tests/oracle/wide_gjk.h"
+#include "tests/support/random_scenes.h"
+
+namespace gjkdbg {
+namespace {
+
+const Gallery& gallery() {
+  static const Gallery read = read_gallery(GJKDBG_GALLERY);
+  return read;
+}
+
+template <class Check>
+void for_gallery(Check check) {
+  for (const Lesson& lesson : gallery().lessons)
+    for (const std::string& name : lesson.scenes) {
+      SCOPED_TRACE(name);
+      check(read_scene(gallery().file(name)));
+    }
+}
+
+TEST(Gallery, HasSixtyScenesAndListsEveryFileOnce) {
+  std::vector<std::string> names;
+  for (const Lesson& lesson : gallery().lessons) names.insert(names.end(), lesson.scenes.begin(), lesson.scenes.end());
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
+  EXPECT_GE(names.size(), 60u);
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(gallery().directory)) files += entry.path().string().ends_with(".scene.json");
+  EXPECT_EQ(files, names.size());
+}
+
+/// The expectations against the oracles, not against our own output.
+TEST(Gallery, ExpectationsAgreeWithTheOracles) {
+  int compared = 0;
+  for_gallery([&](const SceneFile& file) {
+    ASSERT_TRUE(file.expect) << "no expectation";
+    EXPECT_FALSE(file.scene.source.empty());
+    EXPECT_FALSE(file.scene.description.empty());
+    const Expectation& e = *file.expect;
+    if (std::holds_alternative<Mesh>(file.scene.bodies[1].shape.geometry)) return;
+    if (const auto exact = oracle::signed_distance(file.scene)) {
+      ++compared;
+      EXPECT_EQ(e.intersecting.value_or(exact->intersecting), exact->intersecting);
+      const double expected = file.scene.query == Query::distance ? std::max(0.0, exact->signed_distance) : exact->signed_distance;
+      EXPECT_NEAR(e.signed_distance.value_or(expected), expected, e.tolerance);
+      double nearest = 2;
+      if (e.normal && !exact->normals.empty()) {
+        for (const auto& n : exact->normals) nearest = std::min(nearest, (n.head(file.scene.dimension) - *e.normal).norm());
+        EXPECT_LE(nearest, 1e-9) << "a normal that is none of " << exact->normals.size();
+      }
+    } else if (e.intersecting && !*e.intersecting && e.signed_distance) {
+      ++compared;
+      EXPECT_NEAR(*e.signed_distance, oracle::wide_distance(file.scene), e.tolerance);
+    }
+  });
+  EXPECT_GE(compared, 100);
+}
+
+TEST(Gallery, AnswersAreAsExpected) {
+  for_gallery([](const SceneFile& file) {
+    for (const std::string& missed : missed_expectations(file, record(file).result)) ADD_FAILURE() << missed;
+  });
+}
+
+TEST(Codec, RecordingsReadBackBitForBit) {
+  for_gallery([](const SceneFile& file) {
+    const Recording recording = record(file);
+    const std::string text = recording_to_text(recording);
+    const Recording again = parse_recording(text, {});
+    EXPECT_EQ(recording_to_text(again), text);
+    EXPECT_FALSE(first_difference(recording, again));
+    EXPECT_FALSE(verify(again)) << verify(again)->what;
+  });
+}
+
+TEST(Codec, NumbersReadBackBitForBit) {
+  RandomScenes random(1);
+  for (int i = 0; i < 20000; ++i) {
+    const double x = std::ldexp(random.uniform(-1, 1), random.integer(-1070, 1020));
+    std::string text;
+    append_number(text, x);
+    EXPECT_EQ(nlohmann::json::parse(text).get<double>(), x) << text;
+  }
+  std::string zero, infinite;
+  append_number(zero, -0.0);
+  append_number(infinite, 1.0 / 0.0);
+  EXPECT_TRUE(std::signbit(nlohmann::json::parse(zero).get<double>()));
+  EXPECT_EQ(infinite, "null");
+}
+
+TEST(Codec, DegreesReadBackToTheSameRadians) {
+  RandomScenes random(2);
+  for (int i = 0; i < 20000; ++i) {
+    const double degrees = i % 2 == 0 ? random.uniform(-720, 720) : random.integer(-7200, 7200) / 10.0;
+    const double radians = radians_from_degrees(degrees);
+    EXPECT_EQ(radians_from_degrees(degrees_from_radians(radians)), radians) << degrees;
+  }
+  EXPECT_EQ(degrees_from_radians(radians_from_degrees(29)), 29);
+  EXPECT_EQ(degrees_from_radians(radians_from_degrees(-90)), -90);
+}
+
+TEST(Codec, HundredThousandEvents) {
+  Recording recording = record(read_scene(gallery().file("ellipsoids-concentric")));
+  const std::vector<Event> events = recording.events;
+  while (recording.events.size() < 100000) recording.events.insert(recording.events.end(), events.begin(), events.end());
+  const Recording again = parse_recording(recording_to_text(recording), {});
+  EXPECT_EQ(again.events.size(), recording.events.size());
+}
+
+TEST(Replay, SeekingEqualsPlaying) {
+  for_gallery([](const SceneFile& file) {
+    const Recording recording = record(file);
+    const std::size_t count = recording.events.size();
+    Replay play(recording), seek(recording);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Frame& frame = play.at(i);
+      ASSERT_TRUE(frame == frame_at(recording, i)) << i;
+      const std::size_t jump = (i * 7919) % count;
+      ASSERT_TRUE(seek.at(jump) == frame_at(recording, jump)) << jump;
+      if (count > 300 && i > 40) i += 37;
+    }
+    EXPECT_THROW(frame_at(recording, count), std::out_of_range);
+  });
+}
+
+TEST(Comparison, NamesTheFirstDifference) {
+  const SceneFile file = read_scene(gallery().file("box-box-deep"));
+  const Recording a = record(file);
+  Recording b = a;
+  EXPECT_FALSE(first_difference(a, b));
+  std::get<recorded::SupportQueried>(b.events[3]).w[1] += 1e-15;
+  auto difference = first_difference(a, b);
+  ASSERT_TRUE(difference);
+  EXPECT_EQ(difference->event, 3u);
+  EXPECT_EQ(difference->fields, std::vector<std::string>{"w"});
+  EXPECT_EQ(verify(b)->event, 3u);
+  b = a;
+  b.events.pop_back();
+  EXPECT_EQ(first_difference(a, b)->event, a.events.size() - 1);
+  b = a;
+  *b.result.signed_distance = 1;
+  EXPECT_EQ(first_difference(a, b)->what, "result");
+}
+
+// --- Bad input: one clear line, never a crash ----------------------------------------------------------------------
+
+std::string error_of(const std::string& text) {
+  try {
+    parse_scene(text, {});
+  } catch (const Error& e) {
+    EXPECT_EQ(e.line().find('\n'), std::string::npos) << e.line();
+    return e.where() + " " + e.code();
+  }
+  return "accepted";
+}
+
+std::string scene_with(const std::string& shape, const std::string& pose = "{\"position\":[0,0,0]}", const std::string& more = "") {
+  return R"({"format":"gjk-scene","version":1,"dimension":3,"bodies":[{"shape":)" + shape + R"(,"pose":)" + pose +
+         R"(},{"shape":{"type":"sphere","radius":1}}])" + more + "}";
+}
+
+TEST(BadScenes, AreRefusedWithTheirPlace) {
+  EXPECT_EQ(error_of(scene_with(R"({"type":"sphere","radius":1})")), "accepted");
+  EXPECT_EQ(error_of(""), "line 1, column 1 bad-json");
+  EXPECT_EQ(error_of("{\n  \"format\": }"), "line 2, column 13 bad-json");
+  EXPECT_EQ(error_of("[]"), " wrong-type");
+  EXPECT_EQ(error_of("{}"), "/format missing-field");
+  EXPECT_EQ(error_of(scene_with(R"({"type":"sphere","radius":-1})")), "/bodies/0/shape/radius negative-size");
+  EXPECT_EQ(error_of(scene_with(R"({"type":"sphere","radius":1e999})")).find("accepted"), std::string::npos);
+  EXPECT_EQ(error_of(scene_with(R"({"type":"sphere","radius":null})")), "/bodies/0/shape/radius wrong-type");
+  EXPECT_EQ(error_of(scene_with(R"({"type":"sphere","radus":1})")), "/bodies/0/shape/radius missing-field");
+  EXPECT_EQ(error_of(scene_with(R"({"type":"sphere","radius":1,"colour":1})")), "/bodies/0/shape/colour unknown-field");
+  EXPECT_EQ(error_of(scene_with(R"({"type":"shpere","radius":1})")), "/bodies/0/shape/type unknown-type");
+  EXPECT_EQ(error_of(scene_with(R"({"type":"polygon","points":[[0,0],[1,0],[0,1]]})")), "/bodies/0/shape/type wrong-dimension");
+  EXPECT_EQ(error_of(scene_with(R"({"type":"hull","points":[]})")), "/bodies/0/shape/points no-points");
+  EXPECT_EQ(error_of(scene_with(R"({"type":"hull","points":[[0,0]]})")), "/bodies/0/shape/points/0 wrong-dimension");
+  EXPECT_EQ(error_of(scene_with(R"({"type":"hull","mesh":"nowhere.obj"})")), "/bodies/0/shape/mesh missing-file");
+  EXPECT_EQ(error_of(scene_with(R"({"type":"box","half_extents":[1,1]})")), "/bodies/0/shape/half_extents wrong-dimension");
+  EXPECT_EQ(error_of(scene_with(R"({"type":"sphere","radius":1})", R"({"rotation":{"quaternion":[1,0,0,0.1]}})")), "/bodies/0/pose/rotation/quaternion not-a-rotation");
+  EXPECT_EQ(error_of(scene_with(R"({"type":"sphere","radius":1})", "{}", R"(,"dimension":2)")), "/dimension duplicate-field");
+  EXPECT_EQ(error_of(scene_with(R"({"type":"sphere","radius":1})", "{}", R"(,"method":{"name":"gkj"})")), "/method/name unknown-name");
+}
+
+TEST(BadScenes, WarnOfARotationThatIsSlightlyOff) {
+  const SceneFile file = parse_scene(scene_with(R"({"type":"sphere","radius":1})", R"({"rotation":{"quaternion":[1,0,0,0.0001]}})"), {});
+  ASSERT_EQ(file.scene.warnings.size(), 1u);
+  const Recording recording = record(file);
+  ASSERT_TRUE(std::holds_alternative<recorded::Warning>(recording.events.at(0)));
+  EXPECT_EQ(std::get<recorded::Warning>(recording.events[0]).code, "rotation-orthonormalised");
+}
+
+TEST(BadScenes, WithoutCastAndSimulateYet) {
+  SceneFile file = read_scene(gallery().file("two-unit-cubes"));
+  for (const Query query : {Query::cast, Query::simulate}) {
+    file.scene.query = query;
+    EXPECT_THROW(record(file), Error);
+  }
+}
+
+/// A reading of anything ends in a recording or in an Error with one line.
+bool reads(const std::string& text) {
+  try {
+    const Recording recording = parse_recording(text, {});
+    for (std::size_t i = 0; i < recording.events.size(); ++i) frame_at(recording, i);
+    return true;
+  } catch (const Error& e) {
+    EXPECT_EQ(e.line().find('\n'), std::string::npos);
+    return false;
+  }
+}
+
+TEST(DamagedRecordings, TruncatedAnywhere) {
+  const std::string text = recording_to_text(record(read_scene(gallery().file("2d-deep"))));
+  for (std::size_t length = 0; length + 3 < text.size(); length += 11) EXPECT_FALSE(reads(text.substr(0, length))) << length;
+}
+
+TEST(DamagedRecordings, AlteredAnywhere) {
+  const std::string text = recording_to_text(record(read_scene(gallery().file("stacked-cubes"))));
+  std::mt19937 random(3);
+  const std::string alphabet = "0123456789-e.,:[]{}\"\\ntfalsu\0\xff";
+  int survived = 0;
+  for (int i = 0; i < 3000; ++i) {
+    std::string altered = text;
+    for (int k = 0; k < 1 + i % 4; ++k) altered[random() % altered.size()] = alphabet[random() % alphabet.size()];
+    survived += reads(altered);
+  }
+  EXPECT_GT(survived, 0);
+  EXPECT_LT(survived, 3000);
+}
+
+TEST(DamagedRecordings, DeepNestingAndHugeNumbers) {
+  EXPECT_FALSE(reads(std::string(100000, '[')));
+  EXPECT_FALSE(reads(R"({"format":"gjk-recording","version":1e400})"));
+  EXPECT_FALSE(reads(R"({"format":"gjk-recording","format":"gjk-recording"})"));
+}
+
+TEST(DamagedRecordings, CorpusOfTheFuzzer) {
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(GJKDBG_CORPUS)) {
+    reads(read_text_file(entry.path()));
+    ++files;
+  }
+  EXPECT_GT(files, 5);
+}
+
+}  // namespace
+}  // namespace gjkdbg

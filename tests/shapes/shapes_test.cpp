@@ -1,0 +1,155 @@
+// Support mappings, poses, hulls.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "shapes/convex.h"
+#include "shapes/convex_hull.h"
+#include "shapes/error.h"
+#include "shapes/pose.h"
+#include "tests/support/random_scenes.h"
+
+namespace gjkdbg {
+namespace {
+
+using V3 = Eigen::Vector3d;
+
+V3 support(const Shape& shape, const V3& d) {
+  const Convex<3, double> convex(shape);
+  int hint = 0;
+  V3 p = convex.reference() + convex.support(d, hint);
+  if (convex.radius() > 0) p += convex.radius() * d.normalized();
+  return p;
+}
+
+/// Points of a solid of revolution's or box's surface, by its definition.
+std::vector<V3> samples(const Shape& shape, RandomScenes& random) {
+  std::vector<V3> out;
+  for (int i = 0; i < 400; ++i) {
+    const double t = random.uniform(0, 6.3), u = random.uniform(-1, 1), r = std::sqrt(random.uniform(0, 1));
+    if (const auto* c = std::get_if<Cylinder>(&shape.geometry)) out.emplace_back(r * c->radius * std::cos(t), u * c->half_height, r * c->radius * std::sin(t));
+    if (const auto* c = std::get_if<Cone>(&shape.geometry)) {
+      const double at = (1 - u) / 2 * c->radius * r;
+      out.emplace_back(at * std::cos(t), u * c->half_height, at * std::sin(t));
+    }
+    if (const auto* s = std::get_if<Sphere>(&shape.geometry)) out.push_back(s->radius * V3(std::cos(t) * std::sqrt(1 - u * u), u, std::sin(t) * std::sqrt(1 - u * u)));
+    if (const auto* e = std::get_if<Ellipsoid>(&shape.geometry)) out.push_back(V3(e->radii).cwiseProduct(V3(std::cos(t) * std::sqrt(1 - u * u), u, std::sin(t) * std::sqrt(1 - u * u))));
+    if (const auto* b = std::get_if<Box>(&shape.geometry)) out.push_back(V3(b->max).cwiseProduct(V3(u, random.uniform(-1, 1), random.uniform(-1, 1))));
+  }
+  return out;
+}
+
+AnyVector any(const V3& v) { return v; }
+
+TEST(Support, IsFartherThanAnyPointOfTheShape) {
+  RandomScenes random(1);
+  const V3 half(0.5, 1, 0.25);
+  for (const Shape& shape : {Shape{Sphere{2}, 0}, Shape{Box{any(-half), any(half), true}, 0}, Shape{Cylinder{0.5, 2, 1}, 0}, Shape{Cone{0.5, 2, 1}, 0},
+                             Shape{Cone{3, 0.1, 1}, 0}, Shape{Ellipsoid{any(V3(1, 2, 0.1))}, 0}}) {
+    const auto points = samples(shape, random);
+    for (int i = 0; i < 200; ++i) {
+      const V3 d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+      const double height = d.dot(support(shape, d));
+      for (const V3& p : points) EXPECT_LE(d.dot(p), height + 1e-12);
+    }
+  }
+}
+
+TEST(Support, IsExactOnTheAxis) {
+  EXPECT_EQ(support({Cylinder{0.5, 2, 1}, 0}, V3(0, 1, 0))[1], 2);
+  EXPECT_EQ(support({Cylinder{0.5, 2, 1}, 0}, V3(0, -1e-300, 0))[1], -2);
+  EXPECT_EQ(support({Cone{0.5, 2, 1}, 0}, V3(0, 1, 0)), V3(0, 2, 0));
+  EXPECT_EQ(support({Cone{0.5, 2, 1}, 0}, V3(0, -1, 0))[1], -2);
+  EXPECT_EQ(support({Ellipsoid{any(V3(1, 2, 3))}, 0}, V3(0, 0, -5)), V3(0, 0, -3));
+}
+
+TEST(Support, OfAZeroDirectionIsAPointOfTheShape) {
+  const V3 half(1, 1, 1);
+  for (const Shape& shape : {Shape{Box{any(-half), any(half), true}, 0}, Shape{Cylinder{1, 1, 1}, 0}, Shape{Cone{1, 1, 1}, 0}, Shape{Ellipsoid{any(half)}, 0}}) {
+    const Convex<3, double> convex(shape);
+    int hint = 0;
+    const V3 p = convex.support(V3::Zero(), hint);
+    EXPECT_TRUE(p.allFinite());
+    EXPECT_LE(p.cwiseAbs().maxCoeff(), 1);
+  }
+}
+
+TEST(Support, HillClimbingFindsWhatAScanFinds) {
+  RandomScenes random(2);
+  for (const int count : {hill_climbing_from, 100, 500}) {
+    PointSet set;
+    for (int i = 0; i < count * 2; ++i) set.points.push_back(any(V3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized() * random.uniform(0.97, 1)));
+    const Convex<3, double> convex(Shape{set, 0});
+    int hint = 0;
+    for (int i = 0; i < 500; ++i) {
+      const V3 d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+      double most = -10;
+      for (const AnyVector& p : set.points) most = std::max(most, d.dot(V3(p)));
+      EXPECT_NEAR(d.dot(convex.reference() + convex.support(d, hint)), most, 1e-14);
+    }
+  }
+}
+
+TEST(Hull, KeepsExtremeVerticesOnly) {
+  std::vector<AnyVector> points;
+  for (int i = 0; i < 8; ++i) points.push_back(any(V3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+  points.push_back(any(V3(0, 0, 0)));
+  points.push_back(any(V3(1, 0, 0)));
+  points.push_back(any(V3(1, 1, 0)));
+  points.push_back(points[0]);
+  const ConvexHull hull = convex_hull(points, 3);
+  EXPECT_EQ(hull.rank, 3);
+  EXPECT_EQ(hull.vertices, (std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(hull.faces.size(), 6u);
+  EXPECT_EQ(hull.edges.size(), 12u);
+}
+
+TEST(Hull, OfFlatCollinearAndSinglePoints) {
+  const std::vector<AnyVector> square{any(V3(0, 0, 5)), any(V3(1, 0, 5)), any(V3(1, 1, 5)), any(V3(0, 1, 5)), any(V3(0.5, 0.5, 5))};
+  EXPECT_EQ(convex_hull(square, 3).rank, 2);
+  EXPECT_EQ(convex_hull(square, 3).vertices.size(), 4u);
+  const std::vector<AnyVector> line{any(V3(0, 0, 0)), any(V3(1, 1, 1)), any(V3(0.25, 0.25, 0.25))};
+  EXPECT_EQ(convex_hull(line, 3).rank, 1);
+  EXPECT_EQ(convex_hull(line, 3).vertices, (std::vector<int>{0, 1}));
+  const std::vector<AnyVector> point{any(V3(1, 2, 3)), any(V3(1, 2, 3))};
+  EXPECT_EQ(convex_hull(point, 3).rank, 0);
+  EXPECT_EQ(convex_hull(point, 3).vertices.size(), 1u);
+}
+
+TEST(Pose, AllNotationsDescribeTheSameTurn) {
+  const double pi = std::numbers::pi;
+  const AnyMatrix m = resolve(AxisAngle{any(V3(1, 2, -0.5)), 0.7}, 3).matrix;
+  EXPECT_LE((resolve(to_quaternion(m), 3).matrix - m).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_LE((resolve(to_axis_angle(m), 3).matrix - m).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_LE((resolve(RotationMatrix{m}, 3).matrix - m).cwiseAbs().maxCoeff(), 1e-15);
+  for (const char* order : {"xyz", "xzy", "yxz", "yzx", "zxy", "zyx", "xyx", "xzx", "yxy", "yzy", "zxz", "zyz"})
+    for (const bool intrinsic : {true, false})
+      EXPECT_LE((resolve(to_euler(m, order, intrinsic), 3).matrix - m).cwiseAbs().maxCoeff(), 4e-15) << order << intrinsic;
+  // Intrinsic turns about x then y are extrinsic turns about y then x.
+  EXPECT_LE((resolve(Euler{"xyz", true, {0.1, 0.2, 0.3}}, 3).matrix - resolve(Euler{"zyx", false, {0.3, 0.2, 0.1}}, 3).matrix).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_EQ(resolve(AxisAngle{any(V3(0, 0, 2)), pi / 2}, 3).matrix * any(V3(1, 0, 0)), any(V3(0, 1, 0)));
+  EXPECT_EQ(resolve(PlaneAngle{pi}, 2).matrix(0, 0), -1);
+  EXPECT_EQ(resolve(PlaneAngle{pi}, 2).matrix(1, 0), 0);
+}
+
+TEST(Pose, RefusesWhatIsNoRotation) {
+  const auto code = [](const Rotation& r) -> std::string {
+    try {
+      resolve(r, 3);
+    } catch (const Error& e) {
+      return e.code();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(code(Quaternion{{1, 0, 0, 0.01}}), "not-a-rotation");
+  EXPECT_EQ(code(Quaternion{{0, 0, 0, 0}}), "not-a-rotation");
+  EXPECT_EQ(code(Quaternion{{1, 0, 0, 1e-7}}), "accepted");
+  AnyMatrix mirror = AnyMatrix::Identity(3, 3);
+  mirror(2, 2) = -1;
+  EXPECT_EQ(code(RotationMatrix{mirror}), "not-a-rotation");
+  EXPECT_EQ(code(AxisAngle{any(V3(0, 0, 0)), 1}), "not-a-rotation");
+}
+
+}  // namespace
+}  // namespace gjkdbg

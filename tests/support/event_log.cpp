@@ -1,0 +1,51 @@
+#include "tests/support/event_log.h"
+
+#include <sstream>
+
+namespace gjkdbg {
+namespace {
+
+struct Line {
+  std::ostringstream out;
+
+  void vector(const AnyVector& v) {
+    for (const double x : v) out << " " << (x == 0 ? 0 : x);
+  }
+  void list(const std::vector<int>& numbers) {
+    for (const int n : numbers) out << " " << n;
+  }
+  void operator()(const recorded::GjkBegan& e) { out << "gjk began along", vector(e.direction); }
+  void operator()(const recorded::SupportQueried& e) {
+    out << "support " << e.vertex << " (" << phase_names[static_cast<std::size_t>(e.phase)] << ") along", vector(e.direction);
+    out << ": w =", vector(e.w);
+  }
+  void operator()(const recorded::SimplexReduced& e) {
+    out << "simplex", list(e.before), out << " ->", list(e.region);
+    if (e.closest.size() > 0) out << ", v =", vector(e.closest);
+  }
+  void operator()(const recorded::GjkEnded& e) { out << "gjk ended " << gjk_status_names[static_cast<std::size_t>(e.status)]; }
+  void operator()(const recorded::PolytopeSeeded& e) { out << "polytope of", list(e.vertices), out << ", " << e.faces.size() << " faces"; }
+  void operator()(const recorded::FaceChosen& e) { out << "face " << e.face << " chosen at " << e.distance; }
+  void operator()(const recorded::PolytopeGrown& e) {
+    out << "polytope + " << e.vertex << ": -" << e.removed.size() << " +" << e.added.size() << " faces";
+  }
+  void operator()(const recorded::EpaEnded& e) {
+    out << "epa ended " << epa_status_names[static_cast<std::size_t>(e.status)] << ": depth " << e.depth << " along", vector(e.normal);
+  }
+  void operator()(const recorded::Warning& e) { out << "warning " << e.code; }
+};
+
+}  // namespace
+
+std::vector<std::string> event_log(const Recording& recording) {
+  std::vector<std::string> lines;
+  for (const Event& event : recording.events) {
+    Line line;
+    line.out.precision(4);
+    std::visit(line, event);
+    lines.push_back(line.out.str());
+  }
+  return lines;
+}
+
+}  // namespace gjkdbg
