@@ -81,9 +81,16 @@ class Epa {
       offer(number, face, height);
       if (height < 0 && face.distance < 0) return EpaStatus::separated;
       if (best_height_ - face.distance <= options_.tolerance * best_height_ + floor_) return EpaStatus::converged;
-      if (!polytope_.grow(polytope_.add_point(point), number)) return EpaStatus::stalled;
+      if (is_corner(face, point.w) || !polytope_.grow(polytope_.add_point(point), number)) return EpaStatus::stalled;
       trace_grown(point.vertex);
     }
+  }
+
+  /// A support that is a corner of the face it was to lie beyond: the two differ by rounding alone.
+  bool is_corner(const Face& face, const V& w) const {
+    for (const int i : face.vertices)
+      if (polytope_.points()[i].w == w) return true;
+    return false;
   }
 
   /// The answer at the limit: the best direction so far; with none yet, the nearest face's.
