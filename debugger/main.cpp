@@ -1,10 +1,21 @@
 // gjkdbg: one program, a command each (see debugger/commands/).
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <iostream>
 
 #include "debugger/commands/commands.h"
 #include "recordings/recording.h"
+
+namespace {
+
+/// What is printed of an error: one line, whatever names the input brought along.
+std::string one_line(std::string text) {
+  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
+  return text;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace gjkdbg;
@@ -26,10 +37,10 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);
-    std::cerr << "gjkdbg: " << e.what() << " (see gjkdbg --help)\n";
+    std::cerr << "gjkdbg: " << one_line(e.what()) << " (see gjkdbg --help)\n";
     return exit_bad_input;
   } catch (const Error& e) {
-    std::cerr << "gjkdbg: " << e.line() << "\n";
+    std::cerr << "gjkdbg: " << one_line(e.line()) << "\n";
     return exit_bad_input;
   } catch (const std::bad_alloc&) {
     std::cerr << "gjkdbg: out of memory\n";

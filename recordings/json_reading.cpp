@@ -98,7 +98,7 @@ class JsonBuilder {
 std::string reason(const std::string& what) {
   const std::size_t colon = what.find("syntax error");
   std::string text = colon == std::string::npos ? what.substr(what.find(']') + 2) : what.substr(colon);
-  std::replace(text.begin(), text.end(), '\n', ' ');
+  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
   return text.size() > 200 ? text.substr(0, 200) : text;
 }
 

@@ -1,0 +1,169 @@
+#!/usr/bin/python3
+"""The program from outside: exit statuses, one-line errors, files written whole or not at all."""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PROGRAM = sys.argv.pop(1)
+
+CUBES = {
+    "format": "gjk-scene", "version": 1, "dimension": 3,
+    "bodies": [
+        {"shape": {"type": "box", "half_extents": [0.5, 0.5, 0.5]}},
+        {"shape": {"type": "box", "half_extents": [0.5, 0.5, 0.5]}, "pose": {"position": [0.9, 0, 0]}},
+    ],
+}
+
+
+def run(*arguments, **options):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, **options)
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = pathlib.Path(self.folder.name)
+        self.scene = self.write("cubes.scene.json", CUBES)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def write(self, name, value):
+        path = self.path / name
+        path.write_text(value if isinstance(value, str) else json.dumps(value))
+        return path
+
+    def refused(self, result, *parts):
+        """Status 2 and one line that names file, place and reason."""
+        self.assertEqual(result.returncode, 2, result.stderr)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        for part in parts:
+            self.assertIn(part, result.stderr)
+
+    def test_dump_answers(self):
+        result = run("dump", self.scene)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        recording = json.loads(result.stdout)
+        self.assertEqual(recording["format"], "gjk-recording")
+        self.assertAlmostEqual(recording["result"]["signed_distance"], -0.1, 12)
+        self.assertEqual(recording["result"]["normal"], [1, 0, 0])
+
+    def test_dump_by_gallery_name(self):
+        self.assertEqual(run("dump", "two-unit-cubes", cwd=self.path).returncode, 0)
+
+    def test_flags_override_the_scene(self):
+        method = json.loads(run("dump", self.scene, "--scalar", "float", "--tolerance", "1e-3", "--max_iterations", "7", "--penetration", "none",
+                                "--initial_direction", "0,1,0").stdout)["method"]
+        self.assertEqual((method["scalar"], method["tolerance"], method["max_iterations"]), ("float", 1e-3, 7))
+        self.assertEqual((method["penetration"], method["initial_direction"]), ("none", [0, 1, 0]))
+
+    def test_no_more_than_was_asked(self):
+        for query, fields in (("intersect", []), ("distance", ["signed_distance", "witness_a"]), ("contact", ["contacts", "normal"])):
+            result = json.loads(run("dump", self.write("q.json", {**CUBES, "query": query})).stdout)["result"]
+            for field in ("signed_distance", "normal", "witness_a", "contacts"):
+                if field in fields:
+                    self.assertIn(field, result)
+                elif query == "intersect":
+                    self.assertNotIn(field, result)
+
+    def test_distance_never_runs_epa(self):
+        text = run("dump", self.write("q.json", {**CUBES, "query": "distance"})).stdout
+        self.assertNotIn("epa", "".join(text.split('"events"')[1]))
+
+    def test_wrong_expectations_exit_1(self):
+        for expect in ({"intersecting": False}, {"signed_distance": -0.2}, {"normal": [0, 1, 0]}):
+            result = run("dump", self.write("e.json", {**CUBES, "expect": expect}))
+            self.assertEqual(result.returncode, 1)
+            self.assertIn("/expect", result.stderr)
+        self.assertEqual(run("dump", self.write("e.json", {**CUBES, "expect": {"signed_distance": -0.1, "tolerance": 1e-9}})).returncode, 0)
+
+    def test_bad_input_is_one_line(self):
+        self.refused(run("dump", self.path / "nowhere.json"), "nowhere.json")
+        self.refused(run("dump", self.path), str(self.path))
+        self.refused(run("dump", self.write("bad.json", "{")), "bad.json", "line 1, column 2")
+        self.refused(run("dump", self.write("bad.json", {**CUBES, "dimension": 4})), "bad.json", "/dimension")
+        self.refused(run("dump", self.write("bad.json", {**CUBES, "querry": "distance"})), "/querry", "query")
+        self.refused(run("dump", self.write("bad.json", {**CUBES, "query": "cast"})), "/query", "cast")
+        self.refused(run("dump", self.write("bad.json", "\xff\x00")), "bad.json")
+        self.refused(run("dump", self.scene, "--tolerance", "-1"), "--tolerance")
+        self.refused(run("dump", self.scene, "--scalar", "half"), "--scalar")
+        self.refused(run("dump", self.scene, "--name", "gjk-boolean"), "--name")
+        self.refused(run("dump"), "SCENE")
+        self.refused(run("frobnicate"), "--help")
+        self.refused(run("verify", self.scene), "/format")
+
+    def test_help_and_version(self):
+        self.assertEqual(run("--help").returncode, 0)
+        self.assertIn("dump", run("--help").stdout)
+        self.assertRegex(run("--version").stdout, r"^gjkdbg \d+\.\d+\.\d+")
+
+    def test_output_whole_or_not_at_all(self):
+        target = self.write("out.json", "before")
+        self.refused(run("dump", self.write("bad.json", "{"), "-o", target))
+        self.assertEqual(target.read_text(), "before")
+        self.refused(run("dump", self.scene, "-o", self.path / "no/such/folder/out.json"), "cannot be written")
+        self.assertEqual(run("dump", self.scene, "-o", target).returncode, 0)
+        self.assertEqual(json.loads(target.read_text())["version"], 1)
+        self.assertEqual([p.name for p in self.path.iterdir() if ".part" in p.name], [])
+
+    @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
+    def test_full_disk(self):
+        with open("/dev/full", "w") as full:
+            result = subprocess.run([PROGRAM, "dump", str(self.scene)], stdout=full, stderr=subprocess.PIPE, text=True)
+        self.refused(result, "cannot be written")
+
+    def test_verify_and_diff(self):
+        a, b = self.path / "a.json", self.path / "b.json"
+        run("dump", self.scene, "-o", a)
+        run("dump", self.scene, "--scalar", "float", "-o", b)
+        self.assertEqual(run("verify", a, b).returncode, 0)
+        self.assertEqual(run("diff", a, a).returncode, 0)
+        result = run("diff", a, b)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("event 0: direction", result.stdout)
+        recording = json.loads(a.read_text())
+        recording["events"][1]["w"][0] += 1
+        result = run("verify", self.write("altered.json", recording))
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("event 1: w", result.stdout)
+
+    def test_query_in_order_with_bad_lines(self):
+        lines = [json.dumps({**CUBES, "id": i}) for i in range(20)]
+        lines[3] = "{nonsense"
+        lines[7] = json.dumps({**CUBES, "id": "seven", "dimension": 9})
+        lines[11] = ""
+        pairs = self.write("pairs.jsonl", "\n".join(lines) + "\n")
+        for jobs in (1, 3):
+            result = run("query", pairs, "--jobs", jobs)
+            self.assertEqual(result.returncode, 2)
+            answers = [json.loads(line) for line in result.stdout.splitlines()]
+            self.assertEqual(len(answers), 19)
+            self.assertEqual((answers[3]["line"], answers[3]["error"]["code"]), (4, "bad-json"))
+            self.assertEqual((answers[7]["id"], answers[7]["line"], answers[7]["error"]["where"]), ("seven", 8, "/dimension"))
+            self.assertEqual([a["id"] for a in answers if "error" not in a], [i for i in range(20) if i not in (3, 7, 11)])
+        self.assertEqual(run("query", self.write("good.jsonl", lines[0] + "\n")).returncode, 0)
+        self.assertEqual(run("query", "-", input=lines[0]).returncode, 0)
+        expecting = json.dumps({**CUBES, "expect": {"intersecting": False}})
+        self.assertEqual(run("query", self.write("expect.jsonl", expecting)).returncode, 1)
+
+    def test_scenes_lists_the_gallery(self):
+        result = run("scenes")
+        self.assertEqual(result.returncode, 0)
+        names = [line.split()[0] for line in result.stdout.splitlines() if line.startswith("  ")]
+        self.assertEqual(len(names), len(list((ROOT / "recordings/gallery").glob("*.scene.json"))))
+
+    def test_meshes_are_relative_to_the_scene_and_stand_in_the_recording(self):
+        self.write("tetra.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+        scene = {**CUBES, "bodies": [{"shape": {"type": "hull", "mesh": "tetra.obj"}}, CUBES["bodies"][1]]}
+        path = self.write("mesh.scene.json", scene)
+        recording = json.loads(run("dump", path, cwd="/").stdout)
+        self.assertEqual(len(recording["scene"]["bodies"][0]["shape"]["points"]), 4)
+        self.assertEqual(run("verify", self.write("mesh.recording.json", recording)).returncode, 0)
+
+
+unittest.main()

@@ -1,0 +1,63 @@
+#!/usr/bin/python3
+"""Every shipped scene and recording, and what the program writes today, validates against its schema; damaged ones do not."""
+import copy
+import json
+import pathlib
+import subprocess
+import sys
+import unittest
+
+from jsonschema import Draft7Validator
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PROGRAM = sys.argv.pop(1)
+SCHEMAS = {p.name.split(".")[0]: Draft7Validator(json.loads(p.read_text())) for p in (ROOT / "recordings/schema").glob("*.json")}
+
+
+def load(path):
+    return json.loads(path.read_text())
+
+
+class Schemas(unittest.TestCase):
+    def check(self, kind, value, name):
+        errors = [e.message[:200] for e in SCHEMAS[kind].iter_errors(value)]
+        self.assertEqual(errors, [], name)
+
+    def test_schemas_are_schemas(self):
+        for schema in SCHEMAS.values():
+            Draft7Validator.check_schema(schema.schema)
+
+    def test_every_scene(self):
+        scenes = sorted((ROOT / "recordings/gallery").glob("*.scene.json"))
+        self.assertGreaterEqual(len(scenes), 60)
+        for path in scenes:
+            self.check("scene", load(path), path.name)
+        self.check("lessons", load(ROOT / "recordings/gallery/lessons.json"), "lessons.json")
+
+    def test_every_golden_recording(self):
+        recordings = sorted((ROOT / "recordings/golden").glob("*.json"))
+        self.assertGreaterEqual(len(recordings), 20)
+        for path in recordings:
+            self.check("recording", load(path), path.name)
+
+    def test_what_is_written_today(self):
+        for path in sorted((ROOT / "recordings/gallery").glob("*.scene.json")):
+            run = subprocess.run([PROGRAM, "dump", str(path)], capture_output=True, text=True, check=True)
+            self.check("recording", json.loads(run.stdout), path.name)
+
+    def test_wrong_files_do_not_validate(self):
+        good = load(ROOT / "recordings/golden/2d-deep.recording.json")
+        for break_it in (
+            lambda r: r.pop("events"),
+            lambda r: r["events"][1].pop("w"),
+            lambda r: r["events"][1].update(colour=1),
+            lambda r: r["events"][0].update(kind="gjk_begun"),
+            lambda r: r["scene"]["bodies"][0]["shape"].update(half_extents="big"),
+            lambda r: r.update(version=2),
+        ):
+            bad = copy.deepcopy(good)
+            break_it(bad)
+            self.assertFalse(SCHEMAS["recording"].is_valid(bad))
+
+
+unittest.main()
