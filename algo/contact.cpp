@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "shapes/convex_hull.h"
+#include "shapes/corners.h"
 
 namespace gjkdbg {
 namespace {
@@ -12,55 +12,6 @@ namespace {
 using Points = std::vector<AnyVector>;
 
 constexpr double alignment_limit = 1 - 1e-9;  ///< cosine: a face whose normal is this near the pair's can be the reference
-constexpr std::size_t largest_sum = 4096;     ///< corners of a sum of polytopes; beyond, the witness pair is the contact
-
-/// A body as far as contacts go: the corners of its core, in the world, and the radius around it.
-struct Corners {
-  Points points;
-  double radius = 0;
-};
-
-std::optional<Corners> corners_of(const Shape& shape, int dimension);
-
-std::optional<Corners> corners_of_geometry(const Sphere& s, int dimension) { return Corners{{AnyVector::Zero(dimension)}, s.radius}; }
-
-std::optional<Corners> corners_of_geometry(const Box& box, int dimension) {
-  Corners corners;
-  for (int bits = 0; bits < 1 << dimension; ++bits) {
-    AnyVector p(dimension);
-    for (int i = 0; i < dimension; ++i) p[i] = (bits >> i & 1) != 0 ? box.max[i] : box.min[i];
-    corners.points.push_back(p);
-  }
-  return corners;
-}
-
-std::optional<Corners> corners_of_geometry(const Capsule& c, int dimension) {
-  const AnyVector end = AnyVector::Unit(dimension, c.axis) * c.half_height;
-  return Corners{{end, -end}, c.radius};
-}
-
-std::optional<Corners> corners_of_geometry(const PointSet& set, int) { return Corners{set.points, 0}; }
-
-std::optional<Corners> corners_of_geometry(const Sum& sum, int dimension) {
-  const auto first = corners_of(*sum.first, dimension), second = corners_of(*sum.second, dimension);
-  if (!first || !second || first->points.size() * second->points.size() > largest_sum) return std::nullopt;
-  Corners corners{{}, first->radius + second->radius};
-  for (const AnyVector& p : first->points)
-    for (const AnyVector& q : second->points) corners.points.push_back(p + q);
-  return corners;
-}
-
-/// Cylinders, cones, ellipsoids: round, no corners. A mesh is solved triangle by triangle and never comes here.
-template <class Round>
-std::optional<Corners> corners_of_geometry(const Round&, int) {
-  return std::nullopt;
-}
-
-std::optional<Corners> corners_of(const Shape& shape, int dimension) {
-  auto corners = std::visit([&](const auto& g) { return corners_of_geometry(g, dimension); }, shape.geometry);
-  if (corners) corners->radius += shape.margin;
-  return corners;
-}
 
 /// The face of a body that looks most along a direction: its corners in order, and how well it is aligned (the cosine;
 /// -2 when the body has no face: then `points` are all of its corners).

@@ -1,0 +1,157 @@
+// view: the window. render: pictures of steps without a display.
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <memory>
+
+#include "debugger/commands/commands.h"
+#include "debugger/commands/input.h"
+#include "debugger/commands/output_file.h"
+#include "debugger/render/image_file.h"
+#include "debugger/view/explain.h"
+#include "debugger/view/hosts.h"
+#include "recordings/json_writing.h"
+#include "recordings/scene_file.h"
+
+#include <nlohmann/json.hpp>
+
+namespace gjkdbg {
+namespace {
+
+std::string save(const App& app, const std::string& file) {
+  try {
+    const Recording& recording = app.session.recording();
+    write_output(file, file.ends_with(".recording.json") ? recording_to_text(recording) : pretty_json(scene_to_json(recording.scene)) + "\n");
+    return {};
+  } catch (const Error& e) {
+    return e.line();
+  }
+}
+
+struct View {
+  std::string file;
+  WindowOptions options;
+
+  int run() {
+    if (!file.empty()) options.file = scene_path(file);
+    options.save = save;
+    run_window(options, read_gallery(gallery_directory()));
+    return exit_done;
+  }
+};
+
+struct Render {
+  std::string file, output, step = "last";
+  bool all = false, light = false, window = false;
+  int width = 1280, height = 720;
+  float scale = 1;
+
+  int run() const {
+    const std::string path = scene_path(file).string();
+    if (output.ends_with(".svg")) return svg(path);
+    Headless host(width, height, scale, read_gallery(gallery_directory()));
+    App& app = host.app();
+    apply_colours(app.theme, !light);
+    app.session.open(path);
+    app.left_tab = App::LeftTab::scene;
+    if (all) return animation(host);
+    if (!output.ends_with(".png")) throw Error("unknown-format", "must end in .png, .svg, or with --all in .gif", "-o " + output);
+    app.session.go_to(step_number(app.session.count()));
+    write_output(output, png(host));
+    return exit_done;
+  }
+
+ private:
+  /// From 0, as in the recording's list of events; "last", or negative from the end.
+  std::size_t step_number(std::size_t count) const {
+    if (step == "last") return count - 1;
+    long n = 0;
+    const auto [end, error] = std::from_chars(step.data(), step.data() + step.size(), n);
+    const long last = static_cast<long>(count) - 1;
+    if (error != std::errc() || end != step.data() + step.size() || n > last || n < -last - 1)
+      throw Error("no-such-step", "must be a number from 0 to " + std::to_string(last) + ", or last", "--step " + step);
+    return static_cast<std::size_t>(n < 0 ? n + last + 1 : n);
+  }
+
+  Image drawn(Headless& host) const {
+    host.frame(!window);
+    host.frame(!window);  // ImGui lays out what it has measured only in the second
+    return host.image();
+  }
+  std::string png(Headless& host) const {
+    const Image image = drawn(host);
+    return png_bytes(image.width, image.height, image.rgb);
+  }
+
+  int animation(Headless& host) const {
+    if (!output.ends_with(".gif")) throw Error("unknown-format", "--all writes .gif", "-o " + output);
+    std::vector<std::vector<std::uint8_t>> frames;
+    const std::size_t count = host.app().session.count();
+    for (std::size_t i = 0; i < count; ++i) {
+      host.app().session.go_to(i);
+      frames.push_back(drawn(host).rgb);
+    }
+    write_output(output, gif_bytes(width, height, frames, 60));
+    return exit_done;
+  }
+
+  /// Both views as vectors, with the step's sentence below.
+  int svg(const std::string& path) const {
+    Session session;
+    session.open(path);
+    session.go_to(step_number(session.count()));
+    const Palette& palette = light ? light_palette : dark_palette;
+    const double w = width / 2.0, h = height - 60.0;
+    const auto hex = [](Colour c) {
+      char text[8];
+      std::snprintf(text, sizeof text, "#%02x%02x%02x", c.r, c.g, c.b);
+      return std::string(text);
+    };
+    std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + std::to_string(width) + "\" height=\"" + std::to_string(height) +
+                      "\" font-family=\"Inter, DejaVu Sans, sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"" + hex(palette.view) + "\"/>\n";
+    for (const bool world : {true, false}) {
+      const double x = world ? 0 : w;
+      const Camera camera = world ? fit_world(session.meshes()) : fit_difference(session.meshes(), session.recording());
+      const Projection projection(camera, {x, 0, w, h});
+      const auto make = world ? world_picture : difference_picture;
+      const std::string clip = world ? "world" : "difference";
+      out += "<clipPath id=\"" + clip + "\"><rect x=\"" + std::to_string(x) + "\" y=\"0\" width=\"" + std::to_string(w) + "\" height=\"" + std::to_string(h) + "\"/></clipPath>\n<g clip-path=\"url(#" +
+             clip + ")\">\n" + to_svg(flatten(make(session.meshes(), session.recording(), session.frame(), {}, palette, projection), projection), 14) + "</g>\n";
+    }
+    const Explanation e = explain(session.recording(), session.frame());
+    std::vector<FlatItem> caption(2);
+    for (FlatItem& item : caption) item.kind = FlatItem::Kind::label;
+    caption[0].points = {{16, h + 8, 0}}, caption[0].text = e.title, caption[0].colour = palette.text;
+    caption[1].points = {{16, h + 30, 0}}, caption[1].text = e.text, caption[1].colour = palette.text_soft;
+    write_output(output, out + to_svg({caption[0]}, 15) + to_svg({caption[1]}, 12) + "</svg>\n");
+    return exit_done;
+  }
+};
+
+}  // namespace
+
+void add_view(CLI::App& app, Status& status) {
+  auto view = std::make_shared<View>();
+  CLI::App* command = app.add_subcommand("view", "The window; the gallery when no file is named");
+  command->add_option("FILE", view->file, "scene or recording, or the name of a gallery scene");
+  command->add_option("--scale", view->options.scale, "size of everything; the monitor's unless given")->check(CLI::Range(0.5, 4.0));
+  command->add_option("--width", view->options.width, "of the window")->check(CLI::Range(320, 16384));
+  command->add_option("--height", view->options.height, "of the window")->check(CLI::Range(240, 16384));
+  command->callback([view, &status] { status = view->run(); });
+}
+
+void add_render(CLI::App& app, Status& status) {
+  auto render = std::make_shared<Render>();
+  CLI::App* command = app.add_subcommand("render", "The picture of a step, without a display");
+  command->add_option("FILE", render->file, "scene or recording, or the name of a gallery scene")->required();
+  command->add_option("-o,--output", render->output, ".png, .svg, or with --all .gif")->required();
+  command->add_option("--step", render->step, "from 0; negative from the end; last unless given");
+  command->add_flag("--all", render->all, "the replay as an animation");
+  command->add_flag("--light", render->light, "dark on white");
+  command->add_flag("--window", render->window, "the whole window, not only the two views");
+  command->add_option("--width", render->width, "pixels")->check(CLI::Range(64, 8192));
+  command->add_option("--height", render->height, "pixels")->check(CLI::Range(64, 8192));
+  command->add_option("--scale", render->scale, "size of text and marks")->check(CLI::Range(0.5, 4.0));
+  command->callback([render, &status] { status = render->run(); });
+}
+
+}  // namespace gjkdbg

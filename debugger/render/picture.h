@@ -1,0 +1,76 @@
+// A picture: what a view shows, as primitives in scene space with their meaning's colour. Pure data; a window draws it with
+// its own means, a file writes it as SVG.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "debugger/render/camera.h"
+#include "debugger/render/palette.h"
+
+namespace gjkdbg {
+
+enum class Stroke { solid, dashed };
+
+struct PictureFace {
+  std::vector<ViewPoint> points;
+  Colour fill;
+};
+struct PictureLine {
+  ViewPoint from, to;
+  Colour colour;
+  double width = 1.5;  ///< pixels
+  Stroke stroke = Stroke::solid;
+  bool arrow = false;
+  bool on_top = false;  ///< drawn over everything, whatever lies in front
+};
+enum class Mark { disc, ring, cross, square };
+struct PicturePoint {
+  ViewPoint at;
+  Colour colour;
+  double radius = 5;  ///< pixels
+  Mark mark = Mark::disc;
+  int vertex = -1;  ///< what a click selects
+};
+struct PictureLabel {
+  ViewPoint at;
+  std::string text;
+  Colour colour;
+  double dx = 9, dy = -9;  ///< pixels from the point
+};
+
+struct Picture {
+  std::vector<PictureFace> faces;
+  std::vector<PictureLine> lines;
+  std::vector<PicturePoint> points;
+  std::vector<PictureLabel> labels;
+
+  void line(const ViewPoint& from, const ViewPoint& to, Colour colour, double width = 1.5, Stroke stroke = Stroke::solid) {
+    lines.push_back({from, to, colour, width, stroke, false, false});
+  }
+  void arrow(const ViewPoint& from, const ViewPoint& to, Colour colour, double width = 2.5) {
+    lines.push_back({from, to, colour, width, Stroke::solid, true, true});
+  }
+};
+
+/// Flattened: in pixels, in drawing order.
+struct FlatItem {
+  enum class Kind { polygon, line, point, label } kind = Kind::polygon;
+  std::vector<Projected> points;
+  Colour colour;
+  double width = 1;  ///< of a line; the radius of a point
+  Stroke stroke = Stroke::solid;
+  bool arrow = false;
+  Mark mark = Mark::disc;
+  std::string text;
+  int vertex = -1;
+};
+
+/// Projects and sorts back to front (faces by their middle, lines just before faces at the same depth; points and labels last).
+/// Labels that would cover one another are moved apart.
+std::vector<FlatItem> flatten(const Picture& picture, const Projection& projection);
+
+/// As an SVG fragment (no document element).
+std::string to_svg(const std::vector<FlatItem>& items, double font_size);
+
+}  // namespace gjkdbg

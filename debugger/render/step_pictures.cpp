@@ -1,0 +1,350 @@
+#include "debugger/render/step_pictures.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gjkdbg {
+
+SceneMeshes scene_meshes(const Scene& scene) {
+  const Body &a = scene.bodies[0], &b = scene.bodies[1];
+  const int d = scene.dimension;
+  return {body_mesh(a, d), body_mesh(b, d), difference_mesh(a, b, d), radius_sum(a, b, d), d};
+}
+
+std::string simplex_letter(const Frame& frame, int vertex) {
+  const auto found = std::find(frame.simplex.begin(), frame.simplex.end(), vertex);
+  return found == frame.simplex.end() ? "" : std::string(1, static_cast<char>('A' + (found - frame.simplex.begin())));
+}
+
+namespace {
+
+/// Builds one picture; what both views need.
+class Painter {
+ public:
+  Painter(const SceneMeshes& meshes, const Recording& recording, const Frame& frame, const ViewSettings& settings, const Palette& palette,
+          const Projection& projection)
+      : meshes_(meshes), recording_(recording), frame_(frame), settings_(settings), palette_(palette), projection_(projection) {}
+
+  Picture world() {
+    grid();
+    mesh(meshes_.a, palette_.body_a, 0.16, one_d_offset(0));
+    mesh(meshes_.b, palette_.body_b, 0.16, one_d_offset(1));
+    supports();
+    answer();
+    return std::move(picture_);
+  }
+
+  Picture difference() {
+    grid();
+    if (settings_.difference) mesh(meshes_.difference, palette_.text_faint, 0.07, ViewPoint::Zero());
+    polytope();
+    simplex();
+    origin();
+    direction();
+    closest();
+    vertices();
+    return std::move(picture_);
+  }
+
+ private:
+  double unit() const { return std::min(projection_.rectangle().width, projection_.rectangle().height) / projection_.pixels_per_length() / 2; }
+  bool flat() const { return meshes_.dimension < 3; }
+
+  /// Intervals lie over one another: in 1D each is drawn a little off the line.
+  ViewPoint one_d_offset(int body) const { return meshes_.dimension == 1 ? ViewPoint(0, (body == 0 ? 0.16 : -0.16) * unit(), 0) : ViewPoint(ViewPoint::Zero()); }
+
+  /// Lines at round distances: in the plane of a 2D scene, or on the floor y = 0's level of a 3D one.
+  void grid() {
+    if (!settings_.grid) return;
+    const double step = std::pow(10, std::floor(std::log10(unit() * 0.8)));
+    const ViewPoint centre = (projection_.target() / step).array().round() * step;
+    const Colour colour = palette_.grid;
+    if (meshes_.dimension == 1) {
+      const double reach = 40 * step, x = centre[0];
+      picture_.line({x - reach, 0, 0}, {x + reach, 0, 0}, palette_.dropped, 1.5);
+      for (int i = -40; i <= 40; ++i) picture_.line({x + i * step, -0.03 * unit(), 0}, {x + i * step, 0.03 * unit(), 0}, palette_.dropped, 1.2);
+      return;
+    }
+    const int count = flat() ? 40 : 10;
+    const double reach = count * step, floor = projection_.target()[1] - 0.8 * unit();
+    for (int i = -count; i <= count; ++i) {
+      const double x = centre[0] + i * step, y = centre[1] + i * step, z = centre[2] + i * step;
+      if (flat()) {
+        picture_.line({x, centre[1] - reach, 0}, {x, centre[1] + reach, 0}, x == 0 ? colour.shaded(0.25) : colour, 1);
+        picture_.line({centre[0] - reach, y, 0}, {centre[0] + reach, y, 0}, y == 0 ? colour.shaded(0.25) : colour, 1);
+      } else {
+        picture_.line({x, floor, centre[2] - reach}, {x, floor, centre[2] + reach}, colour, 1);
+        picture_.line({centre[0] - reach, floor, z}, {centre[0] + reach, floor, z}, colour, 1);
+      }
+    }
+  }
+
+  void mesh(const DisplayMesh& m, Colour colour, double opacity, const ViewPoint& offset) {
+    const auto at = [&](int i) { return ViewPoint(m.points[static_cast<std::size_t>(i)] + offset); };
+    std::vector<bool> front(m.faces.size(), true);
+    for (std::size_t f = 0; f < m.faces.size(); ++f) {
+      if (m.dimension == 3) front[f] = projection_.faces_eye(m.normals[f], at(m.faces[f][0]));
+      PictureFace face;
+      for (const int i : m.faces[f]) face.points.push_back(at(i));
+      // Light comes from above and the eye's left.
+      const double light = m.dimension == 3 ? m.normals[f].dot((projection_.towards() + 0.6 * projection_.up() - 0.4 * projection_.right()).normalized()) : 0;
+      face.fill = colour.shaded(0.25 * light).with_alpha(opacity * (front[f] ? 1 : 0.5));
+      picture_.faces.push_back(std::move(face));
+    }
+    for (const auto& edge : m.edges) {
+      const bool fa = edge.face_a < 0 || front[static_cast<std::size_t>(edge.face_a)], fb = edge.face_b < 0 ? fa : front[static_cast<std::size_t>(edge.face_b)];
+      const bool outline = fa != fb || edge.face_b < 0;
+      if (!edge.crease && !outline) continue;
+      const bool hidden = !fa && !fb;
+      if (edge.from == edge.to) {
+        picture_.points.push_back({at(edge.from), colour, 5, Mark::disc, -1});
+      } else {
+        const double wide = m.dimension == 1 ? 9 : outline ? 1.8 : 1.3;
+        picture_.line(at(edge.from), at(edge.to), colour.with_alpha(opacity > 0.1 ? (hidden ? 0.35 : 0.95) : (hidden ? 0.2 : 0.5)), wide);
+      }
+    }
+  }
+
+  void label(const ViewPoint& at, const std::string& text, Colour colour, double dx = 9, double dy = -9) {
+    if (settings_.labels && !text.empty()) picture_.labels.push_back({at, text, colour, dx, dy});
+  }
+
+  const FrameVertex* vertex(int number) const {
+    const auto found = frame_.vertices.find(number);
+    return found == frame_.vertices.end() ? nullptr : &found->second;
+  }
+
+  // --- The world ------------------------------------------------------------------------------------------------
+
+  void supports() {
+    for (const auto& [number, v] : frame_.vertices) {
+      const bool newest = frame_.newest == number, in_simplex = !simplex_letter(frame_, number).empty();
+      const bool selected = settings_.selected == number;
+      if (!newest && !in_simplex && !selected) continue;
+      const ViewPoint a = to_view(v.a) + one_d_offset(0), b = to_view(v.b) + one_d_offset(1);
+      const Colour colour = newest ? palette_.support : palette_.support.with_alpha(0.45);
+      picture_.points.push_back({a, colour, newest ? 6.0 : 4.0, Mark::disc, number});
+      picture_.points.push_back({b, colour, newest ? 6.0 : 4.0, Mark::square, number});
+      if (selected) mark_selected(a), mark_selected(b), picture_.line(a, b, palette_.text, 1, Stroke::dashed);
+      if (!newest) continue;
+      label(a, "a", palette_.support);
+      label(b, "b", palette_.support, 9, 10);
+      if (!frame_.direction || frame_.depth) continue;
+      const ViewPoint d = arrow_along(*frame_.direction);
+      if (d.isZero(0)) continue;
+      picture_.arrow(a, a + d, palette_.simplex);
+      picture_.arrow(b, b - d, palette_.simplex);
+      label(a + d, "d", palette_.simplex);
+      label(b - d, "-d", palette_.simplex);
+    }
+  }
+
+  void mark_selected(const ViewPoint& at) { picture_.points.push_back({at, palette_.text, 10, Mark::ring, -1}); }
+
+  /// A third of the view along a direction, or nothing for a direction that is none.
+  ViewPoint arrow_along(const AnyVector& direction, double share = 0.3) const {
+    const ViewPoint d = to_view(direction);
+    if (!d.allFinite() || d.isZero(0)) return ViewPoint::Zero();
+    return d.stableNormalized() * unit() * share;
+  }
+
+  /// At the last step: the witness points and the normal, and the contact points.
+  void answer() {
+    if (frame_.step + 1 != recording_.events.size()) return;
+    const Result& r = recording_.result;
+    if (!r.witness_a || !r.witness_b) return;
+    const ViewPoint a = to_view(*r.witness_a) + one_d_offset(0), b = to_view(*r.witness_b) + one_d_offset(1);
+    picture_.lines.push_back({a, b, palette_.frontier, 2.5, Stroke::solid, false, true});
+    picture_.points.push_back({a, palette_.body_a, 6, Mark::disc, -1});
+    picture_.points.push_back({b, palette_.body_b, 6, Mark::disc, -1});
+    label(a, "witness a", palette_.body_a, 9, 12);
+    label(b, "witness b", palette_.body_b, 9, -12);
+    if (r.normal) {
+      const ViewPoint tip = a + arrow_along(*r.normal, 0.4);
+      picture_.arrow(a, tip, palette_.frontier);
+      label(tip, "n", palette_.frontier);
+    }
+    if (!r.contacts) return;
+    for (const ContactPoint& c : *r.contacts) {
+      picture_.points.push_back({to_view(c.point_a), palette_.newest, 5, Mark::square, -1});
+      picture_.lines.push_back({to_view(c.point_a), to_view(c.point_b), palette_.newest, 2, Stroke::solid, false, true});
+    }
+  }
+
+  // --- The difference ---------------------------------------------------------------------------------------------
+
+  void origin() {
+    if (meshes_.radius > 0 && flat()) circle(meshes_.radius, palette_.frontier.with_alpha(0.8));
+    if (meshes_.radius > 0 && !flat()) circle_facing(meshes_.radius, palette_.frontier.with_alpha(0.8));
+    picture_.points.push_back({ViewPoint::Zero(), palette_.origin, 9, Mark::cross, -1});
+    label(ViewPoint::Zero(), "O", palette_.origin, 10, 12);
+  }
+  void circle(double radius, Colour colour) { ring(radius, ViewPoint::UnitX(), ViewPoint::UnitY(), colour); }
+  void circle_facing(double radius, Colour colour) { ring(radius, projection_.right(), projection_.up(), colour); }
+  void ring(double radius, const ViewPoint& x, const ViewPoint& y, Colour colour) {
+    constexpr int parts = 64;
+    const auto at = [&](int i) { return ViewPoint(radius * (std::cos(i * 2 * M_PI / parts) * x + std::sin(i * 2 * M_PI / parts) * y)); };
+    for (int i = 0; i < parts; i += 2) picture_.line(at(i), at(i + 1), colour, 1.3);
+  }
+
+  void face(const FrameFace& f, Colour colour, double opacity, double width, Stroke stroke = Stroke::solid) {
+    PictureFace filled;
+    for (const int v : f.vertices) {
+      const FrameVertex* p = vertex(v);
+      if (!p) return;
+      filled.points.push_back(to_view(p->w));
+    }
+    const std::size_t n = filled.points.size();
+    for (std::size_t i = 0; i < (n == 2 ? 1 : n) && n > 1; ++i) picture_.line(filled.points[i], filled.points[(i + 1) % n], colour.with_alpha(stroke == Stroke::dashed ? 0.7 : 0.9), width, stroke);
+    filled.fill = colour.with_alpha(opacity);
+    if (n > 2) picture_.faces.push_back(std::move(filled));
+  }
+
+  void polytope() {
+    for (const auto& [number, f] : frame_.faces) {
+      const bool chosen = frame_.chosen == number, added = std::find(frame_.added.begin(), frame_.added.end(), number) != frame_.added.end();
+      const Colour colour = chosen ? palette_.chosen : added ? palette_.frontier : palette_.simplex;
+      face(f, colour, chosen ? 0.5 : added ? 0.16 : 0.1, chosen ? 3 : added ? 1.6 : 1.2);
+    }
+    if (settings_.dropped)
+      for (const FrameFace& f : frame_.removed) face(f, palette_.dropped, 0.04, 1.2, Stroke::dashed);
+    for (const Edge& e : frame_.horizon) {
+      const FrameVertex *p = vertex(e[0]), *q = vertex(e[1]);
+      if (p && q && !flat()) picture_.lines.push_back({to_view(p->w), to_view(q->w), palette_.frontier, 3.2, Stroke::solid, false, true});
+    }
+    if (!frame_.normal || !frame_.depth) return;
+    const ViewPoint tip = to_view(*frame_.normal) * std::max(0.0, *frame_.depth - meshes_.radius);
+    picture_.lines.push_back({ViewPoint::Zero(), tip, palette_.chosen, 3, Stroke::solid, true, true});
+    label(tip, "depth", palette_.chosen);
+  }
+
+  void simplex() {
+    std::vector<ViewPoint> points;
+    for (const int v : frame_.simplex)
+      if (const FrameVertex* p = vertex(v)) points.push_back(to_view(p->w));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (std::size_t j = i + 1; j < points.size(); ++j) picture_.line(points[i], points[j], palette_.simplex, meshes_.dimension == 1 ? 5 : 2.4);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (std::size_t j = i + 1; j < points.size(); ++j)
+        for (std::size_t k = j + 1; k < points.size(); ++k) picture_.faces.push_back({{points[i], points[j], points[k]}, palette_.simplex.with_alpha(0.2)});
+    if (!settings_.dropped) return;
+    for (const int d : frame_.dropped)
+      if (const FrameVertex* p = vertex(d))
+        for (const ViewPoint& q : points) picture_.line(to_view(p->w), q, palette_.dropped, 1.3, Stroke::dashed);
+  }
+
+  void direction() {
+    if (!frame_.direction || frame_.gjk_status) {
+      if (frame_.stage != Frame::Stage::epa && frame_.stage != Frame::Stage::seed) return;
+    }
+    if (!frame_.direction || frame_.depth) return;
+    const ViewPoint d = arrow_along(*frame_.direction, 0.42);
+    if (d.isZero(0)) return;
+    picture_.arrow(ViewPoint::Zero(), d, palette_.simplex);
+    label(d, "d", palette_.simplex);
+    if (settings_.support_plane) support_plane(d.normalized());
+  }
+
+  /// Through the newest vertex, across the direction: all of A - B lies on the origin's side of it.
+  void support_plane(const ViewPoint& d) {
+    const FrameVertex* newest = frame_.newest ? vertex(*frame_.newest) : nullptr;
+    if (!newest) return;
+    const ViewPoint w = to_view(newest->w), foot = d * d.dot(w);
+    const double reach = 0.75 * unit();
+    const Colour colour = palette_.frontier;
+    if (meshes_.dimension == 1) {
+      picture_.line(w - ViewPoint(0, reach / 3, 0), w + ViewPoint(0, reach / 3, 0), colour, 1.6, Stroke::dashed);
+    } else if (meshes_.dimension == 2) {
+      const ViewPoint along(-d[1], d[0], 0), middle = (w + foot) / 2;
+      picture_.line(middle - along * 1.6 * reach, middle + along * 1.6 * reach, colour, 1.6, Stroke::dashed);
+    } else {
+      ViewPoint x = d.unitOrthogonal();
+      if (const ViewPoint across = w - foot; across.norm() > 1e-9 * unit()) x = across.normalized();
+      const ViewPoint y = d.cross(x), middle = (w + foot) / 2;
+      const ViewPoint corners[4] = {middle + (x + y) * reach / 1.5, middle + (x - y) * reach / 1.5, middle - (x + y) * reach / 1.5, middle - (x - y) * reach / 1.5};
+      for (int i = 0; i < 4; ++i) picture_.line(corners[i], corners[(i + 1) % 4], colour.with_alpha(0.8), 1.4, Stroke::dashed);
+      picture_.faces.push_back({{corners[0], corners[1], corners[2], corners[3]}, colour.with_alpha(0.05)});
+    }
+  }
+
+  void closest() {
+    if (!frame_.closest || !frame_.faces.empty()) return;
+    const ViewPoint v = to_view(*frame_.closest);
+    if (v.norm() > 1e-6 * unit()) {
+      picture_.lines.push_back({ViewPoint::Zero(), v, palette_.text_soft, 1.6, Stroke::dashed, false, true});
+      picture_.points.push_back({v, palette_.text, 6, Mark::ring, -1});
+      label(v, "v", palette_.text);
+    }
+  }
+
+  void vertices() {
+    for (const auto& [number, v] : frame_.vertices) {
+      const std::string letter = simplex_letter(frame_, number);
+      const bool dropped = std::find(frame_.dropped.begin(), frame_.dropped.end(), number) != frame_.dropped.end();
+      const bool newest = frame_.newest == number;
+      if (dropped && !settings_.dropped) continue;
+      const ViewPoint w = to_view(v.w);
+      const Colour colour = newest ? palette_.newest : dropped ? palette_.dropped : palette_.simplex;
+      picture_.points.push_back({w, colour, newest ? 6.5 : dropped ? 4.0 : letter.empty() ? 3.5 : 6.0, Mark::disc, number});
+      if (settings_.selected == number) mark_selected(w);
+      if (!letter.empty()) label(w, letter, palette_.text);
+      else if (dropped) label(w, "dropped", palette_.dropped);
+      else if (newest) label(w, "w", palette_.newest);
+    }
+  }
+
+  const SceneMeshes& meshes_;
+  const Recording& recording_;
+  const Frame& frame_;
+  const ViewSettings& settings_;
+  const Palette& palette_;
+  const Projection& projection_;
+  Picture picture_;
+};
+
+struct Bounds {
+  ViewPoint low = ViewPoint::Constant(INFINITY), high = ViewPoint::Constant(-INFINITY);
+  void add(const ViewPoint& p) { low = low.cwiseMin(p), high = high.cwiseMax(p); }
+  Camera camera(int dimension) const {
+    Camera c;
+    c.target = (low + high) / 2;
+    const double size = (high - low).norm() / 2;
+    c.radius = size > 0 ? size * 1.15 : 1;
+    c.flat = dimension < 3;
+    return c;
+  }
+};
+
+}  // namespace
+
+Picture world_picture(const SceneMeshes& meshes, const Recording& recording, const Frame& frame, const ViewSettings& settings, const Palette& palette,
+                      const Projection& projection) {
+  return Painter(meshes, recording, frame, settings, palette, projection).world();
+}
+
+Picture difference_picture(const SceneMeshes& meshes, const Recording& recording, const Frame& frame, const ViewSettings& settings, const Palette& palette,
+                           const Projection& projection) {
+  return Painter(meshes, recording, frame, settings, palette, projection).difference();
+}
+
+Camera fit_world(const SceneMeshes& meshes) {
+  Bounds bounds;
+  for (const DisplayMesh* mesh : {&meshes.a, &meshes.b})
+    for (const ViewPoint& p : mesh->points) bounds.add(p);
+  return bounds.camera(meshes.dimension);
+}
+
+Camera fit_difference(const SceneMeshes& meshes, const Recording& recording) {
+  Bounds bounds;
+  bounds.add(ViewPoint::Constant(0));
+  for (const ViewPoint& p : meshes.difference.points) bounds.add(p);
+  if (meshes.radius > 0 && std::isfinite(meshes.radius)) {
+    const ViewPoint r(meshes.radius, meshes.dimension > 1 ? meshes.radius : 0, meshes.dimension > 2 ? meshes.radius : 0);
+    bounds.add(r), bounds.add(-r);
+  }
+  for (const Event& event : recording.events)
+    if (const auto* query = std::get_if<recorded::SupportQueried>(&event)) bounds.add(to_view(query->w));
+  return bounds.camera(meshes.dimension);
+}
+
+}  // namespace gjkdbg

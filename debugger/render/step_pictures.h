@@ -1,0 +1,41 @@
+// The two linked views of one step: the world, and the Minkowski difference. Pure functions of the recording's frame.
+#pragma once
+
+#include <optional>
+
+#include "debugger/render/picture.h"
+#include "recordings/replay.h"
+
+namespace gjkdbg {
+
+/// What is shown besides the algorithm's state.
+struct ViewSettings {
+  bool difference = true;     ///< the hull of A - B, ghosted
+  bool support_plane = true;
+  bool dropped = true;        ///< dropped vertices and removed faces
+  bool labels = true;
+  bool grid = true;
+  std::optional<int> selected;  ///< a vertex, marked in both views
+};
+
+/// Display hulls of a scene: made once, drawn at every step.
+struct SceneMeshes {
+  DisplayMesh a, b, difference;
+  double radius = 0;  ///< the sum of the cores' radii
+  int dimension = 3;
+};
+SceneMeshes scene_meshes(const Scene& scene);
+
+Picture world_picture(const SceneMeshes& meshes, const Recording& recording, const Frame& frame, const ViewSettings& settings, const Palette& palette,
+                      const Projection& projection);
+Picture difference_picture(const SceneMeshes& meshes, const Recording& recording, const Frame& frame, const ViewSettings& settings, const Palette& palette,
+                           const Projection& projection);
+
+/// Cameras that show everything of a scene.
+Camera fit_world(const SceneMeshes& meshes);
+Camera fit_difference(const SceneMeshes& meshes, const Recording& recording);
+
+/// The letter a vertex goes by at a step: A for the newest of the simplex, then B, C, D; "" when it is not in it.
+std::string simplex_letter(const Frame& frame, int vertex);
+
+}  // namespace gjkdbg

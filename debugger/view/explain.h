@@ -1,0 +1,32 @@
+// What a step means, in words with the real numbers; and the algorithm's lines with the one that runs.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "recordings/replay.h"
+
+namespace gjkdbg {
+
+struct Explanation {
+  std::string title;  ///< a few words
+  std::string text;   ///< one or two sentences: what happened and why
+};
+
+Explanation explain(const Recording& recording, const Frame& frame);
+
+/// One line for a list: "w = (…)", "B A → A".
+std::string summary(const Recording& recording, std::size_t step);
+
+struct PseudoCode {
+  std::string title;
+  std::vector<std::string> lines;
+  int current = -1;
+};
+PseudoCode pseudo_code(const Recording& recording, std::size_t step);
+
+/// Short decimal: six significant digits.
+std::string short_number(double x);
+std::string short_vector(const AnyVector& v);
+
+}  // namespace gjkdbg

@@ -1,0 +1,111 @@
+#include <epoxy/gl.h>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+#include <imgui_impl_glfw.h>
+#include <imgui_impl_opengl3.h>
+
+#include <algorithm>
+
+#include "debugger/view/hosts.h"
+#include "shapes/error.h"
+
+namespace gjkdbg {
+namespace {
+
+/// GLFW for as long as it lives; its errors become one line.
+struct Glfw {
+  Glfw() {
+    glfwSetErrorCallback([](int, const char* what) { last_error() = what; });
+    if (!glfwInit()) throw Error("no-display", "no window can be opened: " + last_error());
+  }
+  ~Glfw() { glfwTerminate(); }
+  static std::string& last_error() {
+    static std::string text;
+    return text;
+  }
+};
+
+GLFWwindow* make_window(const WindowOptions& options) {
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  GLFWwindow* window = glfwCreateWindow(options.width, options.height, "gjkdbg", nullptr, nullptr);
+  if (!window) throw Error("no-display", "no window with OpenGL 3.3 can be opened: " + Glfw::last_error());
+  glfwMakeContextCurrent(window);
+  glfwSwapInterval(1);
+  return window;
+}
+
+float scale_of(GLFWwindow* window, float asked) {
+  if (asked > 0) return asked;
+  float x = 1, y = 1;
+  glfwGetWindowContentScale(window, &x, &y);
+  return std::clamp(x, 1.0f, 4.0f);
+}
+
+void draw(GLFWwindow* window, App& app) {
+  ImGui_ImplOpenGL3_NewFrame();
+  ImGui_ImplGlfw_NewFrame();
+  ImGui::GetIO().DeltaTime = std::clamp(ImGui::GetIO().DeltaTime, 1e-4f, 0.1f);
+  ImGui::NewFrame();
+  app.frame();
+  ImGui::Render();
+  int width = 0, height = 0;
+  glfwGetFramebufferSize(window, &width, &height);
+  glViewport(0, 0, width, height);
+  const ImVec4 background = vec(app.theme.palette.background);
+  glClearColor(background.x, background.y, background.z, 1);
+  glClear(GL_COLOR_BUFFER_BIT);
+  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  glfwSwapBuffers(window);
+}
+
+void open_dropped(GLFWwindow* window, int count, const char** files) {
+  if (count > 0) static_cast<App*>(glfwGetWindowUserPointer(window))->open(files[0]);
+}
+
+/// Draws while something changes; otherwise sleeps until there is input. A few frames follow every input, for what takes ImGui
+/// more than one to settle.
+void loop(GLFWwindow* window, App& app, const WindowOptions& options) {
+  int frames_left = 3;
+  std::string title;
+  while (!glfwWindowShouldClose(window)) {
+    if (app.moving()) glfwPollEvents();
+    else if (frames_left > 0) glfwPollEvents(), --frames_left;
+    else glfwWaitEvents(), frames_left = 3;
+    draw(window, app);
+    if (!app.save_requested.empty() && options.save) {
+      app.message = options.save(app, app.save_requested);
+      app.save_requested.clear();
+    }
+    if (app.session.title() != title) {
+      title = app.session.title();
+      glfwSetWindowTitle(window, (title + " - gjkdbg").c_str());
+    }
+  }
+}
+
+}  // namespace
+
+void run_window(const WindowOptions& options, Gallery gallery) {
+  const Glfw glfw;
+  GLFWwindow* window = make_window(options);
+  IMGUI_CHECKVERSION();
+  ImGui::CreateContext();
+  App app(std::move(gallery), scale_of(window, options.scale));
+  glfwSetWindowUserPointer(window, &app);
+  glfwSetDropCallback(window, open_dropped);
+  ImGui_ImplGlfw_InitForOpenGL(window, true);
+  ImGui_ImplOpenGL3_Init("#version 330 core");
+  if (options.file.empty()) app.open_gallery(options.scene);
+  else app.session.open(options.file);
+  loop(window, app, options);
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+}
+
+}  // namespace gjkdbg

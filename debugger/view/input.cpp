@@ -1,0 +1,42 @@
+#include "debugger/view/input.h"
+
+#include <imgui.h>
+
+#include <array>
+
+namespace gjkdbg {
+namespace {
+
+#if IMGUI_VERSION_NUM < 18700
+// Before 1.87 keys are the backend's own numbers: GLFW's, for every host here.
+constexpr std::array<int, key_count> codes{262, 263, 46, 44, 268, 269, 32, 66, 77, 91, 93, 70, 86, 71, 84, 79, 83, 90, 89, 47, 290, 256,
+                                           49, 50, 51, 52, 53, 54, 55, 56, 57, 321, 322, 323};
+#else
+constexpr std::array<ImGuiKey, key_count> codes{ImGuiKey_RightArrow, ImGuiKey_LeftArrow, ImGuiKey_Period, ImGuiKey_Comma, ImGuiKey_Home, ImGuiKey_End, ImGuiKey_Space,
+                                                ImGuiKey_B, ImGuiKey_M, ImGuiKey_LeftBracket, ImGuiKey_RightBracket, ImGuiKey_F, ImGuiKey_V, ImGuiKey_G, ImGuiKey_T,
+                                                ImGuiKey_O, ImGuiKey_S, ImGuiKey_Z, ImGuiKey_Y, ImGuiKey_Slash, ImGuiKey_F1, ImGuiKey_Escape, ImGuiKey_1, ImGuiKey_2,
+                                                ImGuiKey_3, ImGuiKey_4, ImGuiKey_5, ImGuiKey_6, ImGuiKey_7, ImGuiKey_8, ImGuiKey_9, ImGuiKey_Keypad1, ImGuiKey_Keypad2, ImGuiKey_Keypad3};
+#endif
+
+}  // namespace
+
+bool key_pressed(Key key) { return ImGui::IsKeyPressed(codes[static_cast<std::size_t>(key)], true); }
+
+void feed_key(Key key, bool down) {
+#if IMGUI_VERSION_NUM < 18700
+  ImGui::GetIO().KeysDown[codes[static_cast<std::size_t>(key)]] = down;
+#else
+  ImGui::GetIO().AddKeyEvent(codes[static_cast<std::size_t>(key)], down);
+#endif
+}
+
+void map_keys() {
+#if IMGUI_VERSION_NUM < 18700
+  ImGuiIO& io = ImGui::GetIO();
+  const std::pair<int, int> pairs[] = {{ImGuiKey_Tab, 258}, {ImGuiKey_LeftArrow, 263}, {ImGuiKey_RightArrow, 262}, {ImGuiKey_Home, 268}, {ImGuiKey_End, 269},
+                                       {ImGuiKey_Backspace, 259}, {ImGuiKey_Enter, 257}, {ImGuiKey_Escape, 256}, {ImGuiKey_Space, 32}};
+  for (const auto& [key, code] : pairs) io.KeyMap[key] = code;
+#endif
+}
+
+}  // namespace gjkdbg

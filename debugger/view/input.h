@@ -1,0 +1,19 @@
+// Keys, by what they mean here. Hides the change of ImGui's input interface in 1.87 (from KeysDown to AddKeyEvent).
+#pragma once
+
+namespace gjkdbg {
+
+enum class Key {
+  right, left, period, comma, home, end, space, b, m, left_bracket, right_bracket, f, v, g, t, o, s, z, y, slash, f1, escape,
+  digit_1, digit_2, digit_3, digit_4, digit_5, digit_6, digit_7, digit_8, digit_9, pad_1, pad_2, pad_3
+};
+inline constexpr int key_count = static_cast<int>(Key::pad_3) + 1;
+
+/// Pressed since the last frame, repeats included.
+bool key_pressed(Key key);
+
+/// For tests and pictures, where no window feeds the keys: presses and lets go. Call `map_keys` once per context where no GLFW does.
+void feed_key(Key key, bool down);
+void map_keys();
+
+}  // namespace gjkdbg

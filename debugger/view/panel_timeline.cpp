@@ -1,0 +1,237 @@
+// Below the views: transport, scrubber, event list, bounds.
+#include <algorithm>
+#include <cmath>
+
+#include "debugger/view/app.h"
+#include "debugger/view/explain.h"
+
+namespace gjkdbg {
+namespace {
+
+enum class Icon { first, back_iteration, back, play, pause, forward, forward_iteration, last };
+
+void triangle(ImDrawList* draw, ImVec2 c, float r, float direction, ImU32 colour) {
+  if (direction > 0) draw->AddTriangleFilled({c.x - r * 0.7f, c.y - r}, {c.x + r * 0.8f, c.y}, {c.x - r * 0.7f, c.y + r}, colour);
+  else draw->AddTriangleFilled({c.x + r * 0.7f, c.y - r}, {c.x + r * 0.7f, c.y + r}, {c.x - r * 0.8f, c.y}, colour);
+}
+
+void draw_icon(ImDrawList* draw, Icon icon, ImVec2 c, float r, ImU32 colour) {
+  const auto bar = [&](float x) { draw->AddRectFilled({c.x + x - r * 0.16f, c.y - r}, {c.x + x + r * 0.16f, c.y + r}, colour); };
+  switch (icon) {
+    case Icon::first: bar(-r), triangle(draw, {c.x + r * 0.3f, c.y}, r, -1, colour); break;
+    case Icon::back_iteration: triangle(draw, {c.x - r * 0.7f, c.y}, r * 0.9f, -1, colour), triangle(draw, {c.x + r * 0.7f, c.y}, r * 0.9f, -1, colour); break;
+    case Icon::back: bar(r * 0.9f), triangle(draw, {c.x - r * 0.2f, c.y}, r, -1, colour); break;
+    case Icon::play: triangle(draw, c, r * 1.1f, 1, colour); break;
+    case Icon::pause: bar(-r * 0.4f), bar(r * 0.4f); break;
+    case Icon::forward: bar(-r * 0.9f), triangle(draw, {c.x + r * 0.2f, c.y}, r, 1, colour); break;
+    case Icon::forward_iteration: triangle(draw, {c.x - r * 0.7f, c.y}, r * 0.9f, 1, colour), triangle(draw, {c.x + r * 0.7f, c.y}, r * 0.9f, 1, colour); break;
+    case Icon::last: bar(r), triangle(draw, {c.x - r * 0.3f, c.y}, r, 1, colour); break;
+  }
+}
+
+bool icon_button(const Theme& theme, const char* id, Icon icon, const char* tip, bool strong = false) {
+  const ImVec2 size{theme.px(36), theme.px(30)}, at = ImGui::GetCursorScreenPos();
+  if (strong) ImGui::PushStyleColor(ImGuiCol_Button, vec(theme.palette.accent));
+  const bool pressed = ImGui::Button(id, size);
+  if (strong) ImGui::PopStyleColor();
+  draw_icon(ImGui::GetWindowDrawList(), icon, {at.x + size.x / 2, at.y + size.y / 2}, theme.px(6.5f), packed(strong ? rgb(0xffffff) : theme.palette.text));
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip);
+  ImGui::SameLine(0, theme.px(5));
+  return pressed;
+}
+
+void transport(App& app) {
+  Session& s = app.session;
+  const Theme& theme = app.theme;
+  if (icon_button(theme, "##first", Icon::first, "To the beginning (Home)")) s.go_to(0);
+  if (icon_button(theme, "##back_iteration", Icon::back_iteration, "Back an iteration (Shift+Left)")) s.step_iteration(-1);
+  if (icon_button(theme, "##back", Icon::back, "Back an event (Left)")) s.step_by(-1);
+  if (icon_button(theme, "##play", s.playing ? Icon::pause : Icon::play, "Play (Space)", true)) s.toggle_play();
+  if (icon_button(theme, "##forward", Icon::forward, "On an event (Right)")) s.step_by(1);
+  if (icon_button(theme, "##forward_iteration", Icon::forward_iteration, "On an iteration (Shift+Right)")) s.step_iteration(1);
+  if (icon_button(theme, "##last", Icon::last, "To the end (End)")) s.go_to(s.count() - 1);
+  ImGui::SameLine(0, theme.px(14));
+  ImGui::SetNextItemWidth(theme.px(64));
+  static const char* const speeds[] = {"0.25x", "0.5x", "1x", "2x", "4x", "8x"};
+  int at = static_cast<int>(std::lround(std::log2(s.speed))) + 2;
+  if (ImGui::Combo("##speed", &at, speeds, 6)) s.speed = std::pow(2, at - 2);
+  ImGui::SameLine();
+  ImGui::Checkbox("loop", &s.loop);
+  const std::string count = "step " + std::to_string(s.step() + 1) + " of " + std::to_string(s.count());
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(count.c_str()).x);
+  ImGui::TextUnformatted(count.c_str());
+}
+
+/// Iterations as bands, events as ticks; the pointer seeks.
+void scrubber(App& app) {
+  Session& s = app.session;
+  const Theme& theme = app.theme;
+  const Palette& p = theme.palette;
+  const ImVec2 at = ImGui::GetCursorScreenPos(), size{ImGui::GetContentRegionAvail().x, theme.px(44)};
+  ImGui::InvisibleButton("scrubber", size);
+  const auto count = static_cast<float>(s.count());
+  const float cell = size.x / count;
+  if (ImGui::IsItemActive()) s.playing = false, s.go_to(static_cast<std::size_t>(std::clamp((ImGui::GetIO().MousePos.x - at.x) / cell, 0.f, count - 1)));
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled(at, {at.x + size.x, at.y + size.y}, packed(p.field), theme.px(4));
+  int band = 0;
+  float label_end = at.x;
+  for (std::size_t i = 0; i < s.count();) {
+    std::size_t end = i + 1;
+    const int phase = phase_of(s.recording().events[i]), iteration = iteration_of(s.recording().events[i]);
+    while (end < s.count() && phase_of(s.recording().events[end]) == phase && (iteration_of(s.recording().events[end]) == iteration || iteration < 0)) ++end;
+    const float x0 = at.x + static_cast<float>(i) * cell, x1 = at.x + static_cast<float>(end) * cell;
+    if (band++ % 2 == 1) draw->AddRectFilled({x0, at.y}, {x1, at.y + size.y}, packed(p.hover.with_alpha(0.6)));
+    const std::string label = (phase == 0 ? "" : "E") + std::to_string(std::max(0, iteration));
+    const float width = theme.small->CalcTextSizeA(theme.small->FontSize, 1000, 0, label.c_str()).x;
+    if (x0 + theme.px(3) >= label_end && x1 - x0 > width + theme.px(4)) {
+      draw->AddText(theme.small, theme.small->FontSize * 0.85f, {x0 + theme.px(4), at.y + theme.px(2)}, packed(p.text_faint), label.c_str());
+      label_end = x0 + width + theme.px(8);
+    }
+    i = end;
+  }
+  const std::size_t stride = std::max<std::size_t>(1, static_cast<std::size_t>(2 / std::max(cell, 1e-6f)));
+  const float tick = std::clamp(cell * 0.4f, 1.f, theme.px(5));
+  for (std::size_t i = 0; i < s.count(); i += stride) {
+    const float x = at.x + (static_cast<float>(i) + 0.5f) * cell;
+    draw->AddRectFilled({x - tick / 2, at.y + theme.px(19)}, {x + tick / 2, at.y + size.y - theme.px(6)}, packed(event_colour(p, s.recording().events[i])), 1);
+  }
+  for (const std::size_t b : s.breakpoints) {
+    const float x = at.x + (static_cast<float>(b) + 0.5f) * cell;
+    draw->AddCircleFilled({x, at.y + size.y - theme.px(3)}, theme.px(3), packed(p.newest));
+  }
+  if (s.loop && (s.loop_from || s.loop_to)) {
+    const float x0 = at.x + static_cast<float>(s.loop_from.value_or(0)) * cell, x1 = at.x + static_cast<float>(s.loop_to.value_or(s.count() - 1) + 1) * cell;
+    draw->AddRect({x0, at.y}, {x1, at.y + size.y}, packed(p.accent), theme.px(3), 0, theme.px(2));
+  }
+  const float x = at.x + (static_cast<float>(s.step()) + 0.5f) * cell;
+  draw->AddLine({x, at.y - theme.px(2)}, {x, at.y + size.y + theme.px(2)}, packed(p.text), theme.px(2));
+  draw->AddTriangleFilled({x - theme.px(6), at.y - theme.px(7)}, {x + theme.px(6), at.y - theme.px(7)}, {x, at.y + theme.px(1)}, packed(p.text));
+}
+
+void legend(App& app) {
+  const Theme& theme = app.theme;
+  const Palette& p = theme.palette;
+  ImGui::PushFont(theme.small);
+  const std::pair<const char*, Colour> entries[] = {{"support", p.support}, {"simplex", p.simplex}, {"face chosen", p.chosen}, {"polytope", p.frontier}, {"begin, end", p.text}, {"warning", p.newest}};
+  for (const auto& [name, colour] : entries) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + theme.px(4)}, {at.x + theme.px(9), at.y + theme.px(13)}, packed(colour), 2);
+    ImGui::SetCursorPosX(ImGui::GetCursorPosX() + theme.px(14));
+    ImGui::TextColored(vec(p.text_faint), "%s", name);
+    ImGui::SameLine(0, theme.px(16));
+  }
+  ImGui::NewLine();
+  ImGui::PopFont();
+}
+
+const char* short_kind(const Event& event) {
+  static const char* const names[] = {"begin", "support", "simplex", "end", "polytope", "face", "grow", "end", "warning"};
+  return names[event.index()];
+}
+
+void event_list(App& app, float width, float height) {
+  Session& s = app.session;
+  const Theme& theme = app.theme;
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, vec(theme.palette.panel));
+  ImGui::BeginChild("events", {width, height}, false);
+  ImGui::PushFont(theme.mono);
+  static std::size_t shown = 0;
+  const float row = ImGui::GetTextLineHeightWithSpacing();
+  if (shown != s.step()) ImGui::SetScrollY(std::max(0.f, static_cast<float>(s.step()) * row - height / 2));
+  shown = s.step();
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(s.count()), row);
+  while (clipper.Step())
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const Event& event = s.recording().events[k];
+      ImGui::PushID(i);
+      if (ImGui::Selectable("##row", s.step() == k)) s.playing = false, s.go_to(k);
+      ImGui::SameLine(theme.px(8));
+      ImGui::TextColored(vec(theme.palette.text_faint), "%4d", i + 1);
+      const ImVec2 at = ImGui::GetItemRectMax();
+      ImGui::GetWindowDrawList()->AddRectFilled({at.x + theme.px(8), at.y - theme.px(13)}, {at.x + theme.px(16), at.y - theme.px(5)}, packed(event_colour(theme.palette, event)), 2);
+      ImGui::SameLine(theme.px(66));
+      ImGui::TextUnformatted(short_kind(event));
+      ImGui::SameLine(theme.px(146));
+      ImGui::TextColored(vec(theme.palette.text_soft), "%s", summary(s.recording(), k).c_str());
+      ImGui::PopID();
+    }
+  ImGui::PopFont();
+  ImGui::EndChild();
+  ImGui::PopStyleColor();
+}
+
+/// The gap between the bounds, event by event, on a logarithmic scale: the certificate closing in.
+void bounds_plot(App& app, float width, float height) {
+  Session& s = app.session;
+  const Theme& theme = app.theme;
+  const Palette& p = theme.palette;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled(at, {at.x + width, at.y + height}, packed(p.view), theme.px(6));
+  draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(10), at.y + theme.px(6)}, packed(p.text_faint), "gap between the bounds, log scale");
+  ImGui::Dummy({width, height});
+  struct Sample {
+    std::size_t step;
+    double gap;
+    int phase;
+  };
+  std::vector<Sample> samples;
+  for (std::size_t i = 0; i < s.count(); ++i) {
+    const Event& event = s.recording().events[i];
+    if (const auto* e = std::get_if<recorded::SimplexReduced>(&event)) samples.push_back({i, e->upper_bound - e->lower_bound, 0});
+    if (const auto* e = std::get_if<recorded::GjkEnded>(&event)) samples.push_back({i, e->upper_bound - e->lower_bound, 0});
+    if (const auto* e = std::get_if<recorded::PolytopeGrown>(&event)) samples.push_back({i, e->upper_bound - e->lower_bound, 1});
+  }
+  const Result& r = s.recording().result;
+  if (r.upper_bound && r.lower_bound && phase_of(s.recording().events.back()) == 1) samples.push_back({s.count() - 1, *r.upper_bound - *r.lower_bound, 1});
+  std::erase_if(samples, [](const Sample& x) { return !(x.gap > 0) || !std::isfinite(x.gap); });
+  if (samples.empty()) return;
+  double low = samples[0].gap, high = low;
+  for (const Sample& x : samples) low = std::min(low, x.gap), high = std::max(high, x.gap);
+  const double log_low = std::floor(std::log10(low)), log_high = std::max(log_low + 1, std::ceil(std::log10(high)));
+  const ImVec2 from{at.x + theme.px(52), at.y + theme.px(28)}, to{at.x + width - theme.px(14), at.y + height - theme.px(12)};
+  const auto y_of = [&](double log) { return to.y - static_cast<float>((log - log_low) / (log_high - log_low)) * (to.y - from.y); };
+  const auto point = [&](const Sample& x) {
+    const float share = s.count() < 2 ? 0 : static_cast<float>(x.step) / static_cast<float>(s.count() - 1);
+    return ImVec2{from.x + share * (to.x - from.x), y_of(std::log10(x.gap))};
+  };
+  for (int i = 0; i <= 2; ++i) {
+    const double log = std::round(log_low + (log_high - log_low) * i / 2);
+    char text[16];
+    std::snprintf(text, sizeof text, "1e%+d", static_cast<int>(log));
+    draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(10), y_of(log) - theme.px(7)}, packed(p.text_faint), text);
+    draw->AddLine({from.x, y_of(log)}, {to.x, y_of(log)}, packed(p.field), 1);
+  }
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Colour colour = samples[i].phase == 0 ? p.simplex : p.chosen;
+    if (i > 0 && samples[i - 1].phase == samples[i].phase) draw->AddLine(point(samples[i - 1]), point(samples[i]), packed(colour), theme.px(2));
+    draw->AddCircleFilled(point(samples[i]), theme.px(2.5f), packed(colour));
+  }
+  const float x = s.count() < 2 ? from.x : from.x + static_cast<float>(s.step()) / static_cast<float>(s.count() - 1) * (to.x - from.x);
+  draw->AddLine({x, from.y}, {x, to.y}, packed(p.text.with_alpha(0.6)), 1);
+}
+
+}  // namespace
+
+void timeline_panel(App& app, const Area& area) {
+  if (!begin_area("timeline", area)) return ImGui::EndChild();
+  transport(app);
+  ImGui::Dummy({0, app.theme.px(4)});
+  scrubber(app);
+  legend(app);
+  const ImVec2 left = ImGui::GetContentRegionAvail();
+  if (left.y > app.theme.px(40)) {
+    const float list = left.x > app.theme.px(560) ? left.x * 0.56f : left.x;
+    event_list(app, list, left.y);
+    if (list < left.x) {
+      ImGui::SameLine(0, app.theme.px(10));
+      bounds_plot(app, left.x - list - app.theme.px(10), left.y);
+    }
+  }
+  ImGui::EndChild();
+}
+
+}  // namespace gjkdbg

@@ -1,0 +1,162 @@
+#include "debugger/view/session.h"
+
+#include <algorithm>
+
+#include "algo/solve.h"
+#include "recordings/json_reading.h"
+
+namespace gjkdbg {
+
+int iteration_of(const Event& event) {
+  return std::visit(
+      [](const auto& e) {
+        if constexpr (requires { e.iteration; }) return e.iteration;
+        else return -1;
+      },
+      event);
+}
+
+int phase_of(const Event& event) {
+  if (const auto* query = std::get_if<recorded::SupportQueried>(&event)) return query->phase == Phase::gjk ? 0 : 1;
+  return std::holds_alternative<recorded::GjkBegan>(event) || std::holds_alternative<recorded::SimplexReduced>(event) ||
+                 std::holds_alternative<recorded::GjkEnded>(event) || std::holds_alternative<recorded::Warning>(event)
+             ? 0
+             : 1;
+}
+
+void Session::open(const std::filesystem::path& file) {
+  const std::string text = read_text_file(file);
+  const auto title = [&](const SceneFile& scene) { return scene.scene.name.empty() ? file.filename().string() : scene.scene.name; };
+  try {
+    const Json json = parse_json(text);
+    if (json.is_object() && json.contains("format") && json["format"] == "gjk-recording") {
+      Recording read = parse_recording(text, file.parent_path());
+      const std::string name = title(read.scene);
+      open(std::move(read), name);
+    } else {
+      SceneFile read = scene_from_json(json, file.parent_path());
+      const std::string name = title(read);
+      open(std::move(read), name);
+    }
+  } catch (const Error& e) {
+    throw Error(e.code(), e.message(), file.string() + (e.where().empty() ? "" : ": " + e.where()));
+  }
+}
+
+void Session::open(SceneFile scene, std::string title) { open(record(scene), std::move(title)); }
+
+void Session::open(Recording recording, std::string title) {
+  if (recording.events.empty()) throw Error("no-events", "holds no events", "/events");
+  take(std::move(recording));
+  title_ = std::move(title);
+  undo_.clear(), redo_.clear(), breakpoints.clear(), bookmarks.clear();
+  loop_from.reset(), loop_to.reset();
+  playing = false;
+  step_ = 0;
+  ++opened_;
+}
+
+void Session::take(Recording recording) {
+  SceneMeshes meshes = scene_meshes(recording.scene.scene);
+  replay_.reset();
+  recording_ = std::move(recording);
+  meshes_ = std::move(meshes);
+  replay_.emplace(recording_);
+  step_ = std::min(step_, count() - 1);
+}
+
+void Session::go_to(std::size_t step) { step_ = std::min(step, count() - 1); }
+
+void Session::step_by(int events) {
+  const auto target = static_cast<long>(step_) + events;
+  step_ = static_cast<std::size_t>(std::clamp(target, 0L, static_cast<long>(count()) - 1));
+}
+
+void Session::step_iteration(int direction) {
+  const auto key = [&](std::size_t i) { return std::pair(phase_of(recording_.events[i]), iteration_of(recording_.events[i])); };
+  const auto from = key(step_);
+  const auto stops = [&](std::size_t i) { return i == 0 || i + 1 == count() || key(i) != from; };
+  do step_by(direction);
+  while (!stops(step_));
+  // Backwards: to the first event of the iteration.
+  if (direction < 0)
+    while (step_ > 0 && key(step_ - 1) == key(step_)) --step_;
+}
+
+void Session::step_phase(int direction) {
+  const int from = phase_of(recording_.events[step_]);
+  do step_by(direction);
+  while (step_ > 0 && step_ + 1 < count() && phase_of(recording_.events[step_]) == from);
+  if (direction < 0)
+    while (step_ > 0 && phase_of(recording_.events[step_ - 1]) == phase_of(recording_.events[step_])) --step_;
+}
+
+void Session::toggle_play() {
+  playing = !playing;
+  waited_ = 0;
+  if (playing && step_ + 1 >= count()) step_ = loop_from.value_or(0);
+}
+
+bool Session::tick(double seconds) {
+  if (!playing) return false;
+  waited_ += seconds * speed * 4;
+  bool moved = false;
+  while (waited_ >= 1 && playing) {
+    waited_ -= 1;
+    const std::size_t last = loop_to.value_or(count() - 1);
+    if (step_ >= last) {
+      if (loop) step_ = loop_from.value_or(0);
+      else playing = false;
+    } else {
+      ++step_;
+      if (breakpoints.contains(step_)) playing = false;
+    }
+    moved = true;
+  }
+  return moved;
+}
+
+void Session::toggle_breakpoint() {
+  if (breakpoints.erase(step_) == 0) breakpoints.insert(step_);
+}
+
+void Session::add_bookmark() {
+  for (int i = 1; i <= 9; ++i)
+    if (!bookmarks.contains(i)) {
+      bookmarks[i] = step_;
+      return;
+    }
+}
+
+std::string Session::edit(const SceneFile& next) {
+  try {
+    for (const Body& body : next.scene.bodies) validate(body.shape, next.scene.dimension);
+    Recording recording = record(next);
+    const SceneFile before = recording_.scene;
+    take(std::move(recording));
+    if (!grouping_ || !edit_open_) undo_.push_back(before);
+    edit_open_ = grouping_;
+    redo_.clear();
+    return {};
+  } catch (const Error& e) {
+    return e.line();
+  }
+}
+
+void Session::undo() {
+  if (undo_.empty()) return;
+  redo_.push_back(recording_.scene);
+  const SceneFile back = undo_.back();
+  undo_.pop_back();
+  take(record(back));
+}
+
+void Session::redo() {
+  if (redo_.empty()) return;
+  undo_.push_back(recording_.scene);
+  const SceneFile forward = redo_.back();
+  redo_.pop_back();
+  take(record(forward));
+}
+
+}  // namespace gjkdbg
