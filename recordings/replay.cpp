@@ -21,6 +21,7 @@ struct Apply {
   void operator()(const recorded::SupportQueried& e) {
     frame.iteration = e.iteration;
     frame.direction = e.direction;
+    frame.answered = true;
     frame.newest = e.vertex;
     if (e.phase == Phase::gjk) {
       frame.simplex.insert(frame.simplex.begin(), e.vertex);
@@ -39,7 +40,10 @@ struct Apply {
       if (std::find(e.region.begin(), e.region.end(), v) == e.region.end()) frame.dropped.push_back(v);
     frame.barycentric = e.barycentric;
     frame.closest.reset();
-    if (e.closest.size() > 0) frame.closest = e.closest;
+    if (e.closest.size() > 0) {
+      frame.closest = e.closest;
+      if (!e.closest.isZero(0)) frame.direction = -e.closest, frame.answered = false;
+    }
     bounds(e.lower_bound, e.upper_bound);
   }
 
@@ -63,6 +67,7 @@ struct Apply {
     frame.stage = Frame::Stage::epa;
     frame.iteration = e.iteration;
     frame.chosen = e.face;
+    frame.direction = e.normal, frame.answered = false;
   }
 
   void operator()(const recorded::PolytopeGrown& e) {

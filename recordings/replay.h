@@ -37,7 +37,8 @@ struct Frame {
   int iteration = 0;
   enum class Stage { before, gjk, seed, epa, done } stage = Stage::before;
 
-  std::optional<AnyVector> direction;  ///< the latest search direction
+  std::optional<AnyVector> direction;  ///< the latest search direction, or the one that comes next
+  bool answered = false;               ///< whether `newest` is the support along `direction`
   std::optional<int> newest;           ///< vertex of the latest support query
 
   /// GJK: the current simplex, newest first: after a support query it holds the new vertex too. EPA starts from it and leaves it.

@@ -117,10 +117,11 @@ class Painter {
   // --- The world ------------------------------------------------------------------------------------------------
 
   void supports() {
+    const bool over = frame_.step + 1 == recording_.events.size() && recording_.result.witness_a;  // the witness points speak then
     for (const auto& [number, v] : frame_.vertices) {
-      const bool newest = frame_.newest == number, in_simplex = !simplex_letter(frame_, number).empty();
+      const bool newest = frame_.newest == number && !over, in_simplex = !simplex_letter(frame_, number).empty();
       const bool selected = settings_.selected == number;
-      if (!newest && !in_simplex && !selected) continue;
+      if (((!newest && !in_simplex) || over) && !selected) continue;
       const ViewPoint a = to_view(v.a) + one_d_offset(0), b = to_view(v.b) + one_d_offset(1);
       const Colour colour = newest ? palette_.support : palette_.support.with_alpha(0.45);
       picture_.points.push_back({a, colour, newest ? 6.0 : 4.0, Mark::disc, number});
@@ -242,7 +243,7 @@ class Painter {
     if (d.isZero(0)) return;
     picture_.arrow(ViewPoint::Zero(), d, palette_.simplex);
     label(d, "d", palette_.simplex);
-    if (settings_.support_plane) support_plane(d.normalized());
+    if (settings_.support_plane && frame_.answered) support_plane(d.normalized());
   }
 
   /// Through the newest vertex, across the direction: all of A - B lies on the origin's side of it.

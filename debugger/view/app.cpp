@@ -78,7 +78,7 @@ void App::picture_frame() {
   ImGui::PushFont(theme.title);
   ImGui::TextUnformatted(e.title.c_str());
   ImGui::PopFont();
-  const std::string place = session.title() + "  \xC2\xB7  step " + std::to_string(session.step() + 1) + " of " + std::to_string(session.count());
+  const std::string place = session.title() + "  \xC2\xB7  step " + std::to_string(session.step()) + " of " + std::to_string(session.count() - 1);
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(place.c_str()).x);
   ImGui::TextColored(vec(theme.palette.text_faint), "%s", place.c_str());
   ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));

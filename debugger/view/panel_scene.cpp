@@ -40,6 +40,7 @@ bool numbers(const Theme& theme, const char* label, double* values, int count, f
   ImGui::SetNextItemWidth(-1);
   ImGui::PushFont(theme.mono);
   ImGui::PushID(label);
+  for (int i = 0; i < count; ++i) values[i] += 0.0;  // no "-0"
   const double high = 1e12;
   const bool edited = ImGui::DragScalarN("##values", ImGuiDataType_Double, values, count, speed, low, low ? &high : nullptr, "%.4g");
   ImGui::PopID();

@@ -14,7 +14,7 @@ void heading(App& app) {
   const Explanation e = explain(session.recording(), session.frame());
   ImGui::PushFont(theme.small);
   const char* phase = phase_of(session.recording().events[session.step()]) == 0 ? "GJK" : "EPA";
-  ImGui::TextColored(vec(theme.palette.text_faint), "Step %zu of %zu  \xC2\xB7  %s iteration %d", session.step() + 1, session.count(), phase, session.frame().iteration);
+  ImGui::TextColored(vec(theme.palette.text_faint), "Step %zu of %zu  \xC2\xB7  %s iteration %d", session.step(), session.count() - 1, phase, session.frame().iteration);
   ImGui::PopFont();
   ImGui::PushFont(theme.title);
   ImGui::TextWrapped("%s", e.title.c_str());
@@ -112,7 +112,7 @@ void vertex(App& app) {
   number_row(theme, "w = a - b", short_vector(v.w), theme.palette.text);
   number_row(theme, "a", short_vector(v.a), theme.palette.body_a);
   number_row(theme, "b", short_vector(v.b), theme.palette.body_b);
-  if (ImGui::SmallButton(("from step " + std::to_string(v.event + 1)).c_str())) app.session.go_to(v.event);
+  if (ImGui::SmallButton(("from step " + std::to_string(v.event)).c_str())) app.session.go_to(v.event);
 }
 
 /// After the last step: the answer and its certificate.

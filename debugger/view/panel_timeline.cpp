@@ -57,7 +57,7 @@ void transport(App& app) {
   if (ImGui::Combo("##speed", &at, speeds, 6)) s.speed = std::pow(2, at - 2);
   ImGui::SameLine();
   ImGui::Checkbox("loop", &s.loop);
-  const std::string count = "step " + std::to_string(s.step() + 1) + " of " + std::to_string(s.count());
+  const std::string count = "step " + std::to_string(s.step()) + " of " + std::to_string(s.count() - 1);
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(count.c_str()).x);
   ImGui::TextUnformatted(count.c_str());
 }
@@ -78,8 +78,11 @@ void scrubber(App& app) {
   float label_end = at.x;
   for (std::size_t i = 0; i < s.count();) {
     std::size_t end = i + 1;
-    const int phase = phase_of(s.recording().events[i]), iteration = iteration_of(s.recording().events[i]);
-    while (end < s.count() && phase_of(s.recording().events[end]) == phase && (iteration_of(s.recording().events[end]) == iteration || iteration < 0)) ++end;
+    const int phase = phase_of(s.recording().events[i]);
+    int iteration = iteration_of(s.recording().events[i]);
+    const auto belongs = [&](const Event& event) { return phase_of(event) == phase && (iteration < 0 || iteration_of(event) < 0 || iteration_of(event) == iteration); };
+    for (; end < s.count() && belongs(s.recording().events[end]); ++end)
+      if (iteration < 0) iteration = iteration_of(s.recording().events[end]);
     const float x0 = at.x + static_cast<float>(i) * cell, x1 = at.x + static_cast<float>(end) * cell;
     if (band++ % 2 == 1) draw->AddRectFilled({x0, at.y}, {x1, at.y + size.y}, packed(p.hover.with_alpha(0.6)));
     const std::string label = (phase == 0 ? "" : "E") + std::to_string(std::max(0, iteration));
@@ -149,7 +152,7 @@ void event_list(App& app, float width, float height) {
       ImGui::PushID(i);
       if (ImGui::Selectable("##row", s.step() == k)) s.playing = false, s.go_to(k);
       ImGui::SameLine(theme.px(8));
-      ImGui::TextColored(vec(theme.palette.text_faint), "%4d", i + 1);
+      ImGui::TextColored(vec(theme.palette.text_faint), "%4d", i);
       const ImVec2 at = ImGui::GetItemRectMax();
       ImGui::GetWindowDrawList()->AddRectFilled({at.x + theme.px(8), at.y - theme.px(13)}, {at.x + theme.px(16), at.y - theme.px(5)}, packed(event_colour(theme.palette, event)), 2);
       ImGui::SameLine(theme.px(66));

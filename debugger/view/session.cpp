@@ -11,7 +11,7 @@ int iteration_of(const Event& event) {
   return std::visit(
       [](const auto& e) {
         if constexpr (requires { e.iteration; }) return e.iteration;
-        else return -1;
+        else return std::is_same_v<std::decay_t<decltype(e)>, recorded::Warning> ? -1 : 0;
       },
       event);
 }

@@ -75,7 +75,7 @@ class Session {
   bool grouping_ = false, edit_open_ = false;
 };
 
-/// The iteration an event belongs to, -1 for none.
+/// The iteration an event belongs to, beginnings to the 0th; -1 for none.
 int iteration_of(const Event& event);
 /// 0 before and in GJK, 1 in EPA (its start included), per run.
 int phase_of(const Event& event);
