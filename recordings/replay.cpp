@@ -10,6 +10,7 @@ namespace {
 struct Apply {
   Frame& frame;
   std::size_t step;
+  const Recording& recording;
 
   void operator()(const recorded::GjkBegan& e) {
     frame = Frame{};
@@ -50,6 +51,8 @@ struct Apply {
   void operator()(const recorded::GjkEnded& e) {
     frame.iteration = e.iteration;
     frame.gjk_status = e.status;
+    // A last support that was proof enough never joined the simplex.
+    if (step > 0 && std::holds_alternative<recorded::SupportQueried>(recording.events[step - 1]) && !frame.simplex.empty()) frame.simplex.erase(frame.simplex.begin());
     bounds(e.lower_bound, e.upper_bound);
     frame.stage = Frame::Stage::done;
   }
@@ -112,7 +115,7 @@ struct Apply {
 void apply(Frame& frame, const Recording& recording, std::size_t step) {
   frame.step = step;
   frame.dropped.clear(), frame.removed.clear(), frame.horizon.clear(), frame.added.clear();
-  std::visit(Apply{frame, step}, recording.events[step]);
+  std::visit(Apply{frame, step, recording}, recording.events[step]);
 }
 
 std::map<int, std::vector<std::size_t>> index_vertices(const Recording& recording) {
