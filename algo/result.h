@@ -25,7 +25,7 @@ struct Result {
   std::optional<AnyVector> witness_a, witness_b;
   std::optional<double> lower_bound, upper_bound;
   std::optional<std::vector<ContactPoint>> contacts;
-  std::string status;  ///< of the phase that gave the answer
+  std::string status;  ///< of the phase that gave the answer; "aborted": there is none, `intersecting` means nothing
   int iterations = 0;
   int support_calls = 0;
 };

@@ -14,9 +14,10 @@ enum class GjkStatus {
   touching,         ///< the simplex holds the origin within rounding, on a vertex, an edge or a face
   stalled,          ///< no progress is possible in this precision; the bounds say how much is known
   iteration_limit,  ///< the bounds say how much is known
+  aborted,          ///< another implementation's run that ended without an answer; ours never does
 };
-inline constexpr std::array<std::string_view, 7> gjk_status_names{
-    "converged", "separated", "within_radius", "enclosed", "touching", "stalled", "iteration_limit"};
+inline constexpr std::array<std::string_view, 8> gjk_status_names{
+    "converged", "separated", "within_radius", "enclosed", "touching", "stalled", "iteration_limit", "aborted"};
 
 enum class EpaStatus {
   converged,        ///< the bounds of the depth agree within the tolerance or the rounding floor
@@ -24,8 +25,9 @@ enum class EpaStatus {
   separated,        ///< the origin turned out to lie outside, by less than GJK could tell
   stalled,          ///< no face can be added in this precision; the last good face is the answer
   iteration_limit,  ///< the bounds say how much is known
+  aborted,          ///< as above
 };
-inline constexpr std::array<std::string_view, 5> epa_status_names{"converged", "flat", "separated", "stalled",
-                                                                  "iteration_limit"};
+inline constexpr std::array<std::string_view, 6> epa_status_names{"converged", "flat", "separated", "stalled",
+                                                                  "iteration_limit", "aborted"};
 
 }  // namespace gjkdbg

@@ -133,7 +133,9 @@ std::optional<AnyVector> read_optional_vector(ObjectReader& o, const char* key, 
 Result read_result(const Json& json, const Place& place, int dimension) {
   ObjectReader o(json, place);
   Result r;
-  r.intersecting = read_bool(o.required("intersecting"), o.at("intersecting"));
+  const Json& intersecting = o.required("intersecting");
+  r.status = read_string(o.required("status"), o.at("status"));
+  if (!(intersecting.is_null() && r.status == "aborted")) r.intersecting = read_bool(intersecting, o.at("intersecting"));
   r.signed_distance = read_optional_number(o, "signed_distance");
   r.normal = read_optional_vector(o, "normal", dimension);
   r.witness_a = read_optional_vector(o, "witness_a", dimension);
@@ -152,7 +154,6 @@ Result read_result(const Json& json, const Place& place, int dimension) {
       c.finish();
     }
   }
-  r.status = read_string(o.required("status"), o.at("status"));
   r.iterations = read_integer(o.required("iterations"), o.at("iterations"), 0, largest_number);
   r.support_calls = read_integer(o.required("support_calls"), o.at("support_calls"), 0, largest_number);
   o.finish();

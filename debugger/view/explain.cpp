@@ -51,6 +51,7 @@ std::string sentence(GjkStatus status, const recorded::GjkEnded& e) {
     case GjkStatus::touching: return "The origin lies on the simplex, within rounding: on a vertex, an edge or a face. Whether this is touch or overlap, EPA will tell.";
     case GjkStatus::stalled: return "|v| no longer falls: the precision is used up. The bounds say how much is known.";
     case GjkStatus::iteration_limit: return "The iteration limit is reached before the bounds met. This is no answer; the bounds say how much is known.";
+    case GjkStatus::aborted: return "The solver ended without an answer.";
   }
   return {};
 }
@@ -64,6 +65,7 @@ std::string sentence(EpaStatus status, const recorded::EpaEnded& e) {
     case EpaStatus::separated: return "A support plane has the origin on its far side: the bodies are apart after all, by less than GJK could tell.";
     case EpaStatus::stalled: return "No face can be added in this precision. The last good face is the answer, and the bounds say how exact it is.";
     case EpaStatus::iteration_limit: return "The limit is reached before the bounds met, as on round shapes with many directions equally good. The bounds say how much is known.";
+    case EpaStatus::aborted: return "The solver ended without an answer.";
   }
   return {};
 }

@@ -1,0 +1,180 @@
+#include "recordings/check.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "recordings/check_context.h"
+#include "recordings/json_writing.h"
+#include "shapes/convex.h"
+
+namespace gjkdbg {
+
+NearestPoint nearest_point(const std::vector<AnyVector>& points) {
+  NearestPoint best{points[0], {0}};
+  const auto n = static_cast<unsigned>(std::min<std::size_t>(points.size(), 8));
+  for (unsigned mask = 1; mask < 1u << n; ++mask) {
+    std::vector<int> subset;
+    for (unsigned i = 0; i < n; ++i)
+      if ((mask >> i & 1u) != 0) subset.push_back(static_cast<int>(i));
+    const auto k = static_cast<Eigen::Index>(subset.size());
+    if (k > points[0].size() + 1) continue;
+    // The point of the affine hull nearest the origin: minimise |w0 + E t|.
+    const AnyVector& w0 = points[static_cast<std::size_t>(subset[0])];
+    Eigen::MatrixXd edges(w0.size(), k - 1);
+    for (Eigen::Index i = 1; i < k; ++i) edges.col(i - 1) = points[static_cast<std::size_t>(subset[static_cast<std::size_t>(i)])] - w0;
+    Eigen::VectorXd t(k - 1);
+    if (k > 1) {
+      const auto qr = edges.colPivHouseholderQr();
+      if (qr.rank() < k - 1) continue;
+      t = qr.solve(-w0);
+    }
+    if ((t.array() < -1e-12).any() || t.sum() > 1 + 1e-12) continue;
+    const AnyVector v = k > 1 ? AnyVector(w0 + edges * t) : w0;
+    if (v.norm() < best.v.norm()) best = {v, subset};
+  }
+  return best;
+}
+
+std::string text_of(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return text;
+}
+
+std::string text_of(const AnyVector& v) {
+  std::string out = "(";
+  for (Eigen::Index i = 0; i < v.size(); ++i) out += (i > 0 ? ", " : "") + text_of(v[i]);
+  return out + ")";
+}
+
+CheckContext::CheckContext(const Recording& r) : recording(r), dimension(r.scene.scene.dimension) {
+  const auto& bodies = r.scene.scene.bodies;
+  for (const Event& event : r.events)
+    if (const auto* q = std::get_if<recorded::SupportQueried>(&event)) size = std::max(size, q->w.norm());
+  has_supports = std::none_of(bodies.begin(), bodies.end(), [](const Body& b) { return std::holds_alternative<Mesh>(b.shape.geometry); });
+  for (const Body& b : bodies) size = std::max(size, size_of(b.shape));
+  if (size == 0) size = 1;
+  const bool single = r.settings.scalar == Scalar::float_precision;
+  tolerance = (single ? 1e-4 : 1e-9) * size;
+  stop = std::max(single ? 1e-3 : 1e-6, 8 * r.settings.tolerance);
+  if (!has_supports) return;
+  a_.emplace(bodies[0], dimension), b_.emplace(bodies[1], dimension);
+  radius = a_->radius() + b_->radius();
+  // Whose vertices are these? The first query with a direction tells.
+  for (const Event& event : r.events) {
+    const auto* q = std::get_if<recorded::SupportQueried>(&event);
+    if (!q || !q->direction.allFinite() || q->direction.isZero(0) || radius == 0) continue;
+    const double along = q->direction.stableNormalized().dot(q->w);
+    cores = std::abs(along - height(q->direction)) <= std::abs(along - body_height(q->direction));
+    break;
+  }
+  if (!cores) radius = 0;
+}
+
+double CheckContext::height(const AnyVector& direction) const {
+  const AnyVector d = direction.stableNormalized();
+  return d.dot((*a_)(d, !cores) - (*b_)(-d, !cores));
+}
+
+double CheckContext::body_height(const AnyVector& direction) const {
+  const AnyVector d = direction.stableNormalized();
+  return d.dot((*a_)(d, true) - (*b_)(-d, true));
+}
+
+void CheckContext::find(const char* code, const std::string& message, Finding::Severity severity) {
+  if (!seen_.insert(code).second) return;
+  findings_.push_back({step, severity, code, message});
+}
+
+std::vector<Finding> CheckContext::take() {
+  std::stable_sort(findings_.begin(), findings_.end(), [](const Finding& x, const Finding& y) { return x.step < y.step; });
+  const auto root = std::find_if(findings_.begin(), findings_.end(), [](const Finding& f) { return f.severity == Finding::Severity::error; });
+  if (root != findings_.end())
+    for (auto f = root + 1; f != findings_.end(); ++f) f->message = "Follows from step " + std::to_string(root->step) + ", probably. " + f->message;
+  return std::move(findings_);
+}
+
+const AnyVector* CheckContext::vertex(int number) {
+  const auto found = vertices.find(number);
+  if (found != vertices.end()) return &found->second;
+  find("unknown-vertex", "Vertex " + std::to_string(number) + " was never handed out by a support query; " + std::to_string(vertices.size()) +
+                             " were so far. The usual cause is an index that counts from 1, or one into a list that has since been compacted.");
+  return nullptr;
+}
+
+bool CheckContext::check_direction(const AnyVector& d) {
+  if (!d.allFinite()) {
+    find("non-finite-direction", "The search direction holds a number that is not finite. The usual cause is normalising a zero vector, or a division by a zero area one step earlier: test the length before dividing.");
+    return false;
+  }
+  if (d.isZero(0)) {
+    find("zero-direction", "The search direction is zero. The usual cause is the origin lying on the simplex, where the triple product vanishes, or two centres that coincide at the start: accept the "
+                           "first as touching, or take any perpendicular; start along any axis.");
+    return false;
+  }
+  return true;
+}
+
+namespace {
+
+struct Walk {
+  CheckContext& c;
+  std::optional<GjkCheck> run_gjk;  ///< a mesh makes one run per triangle: each begins anew
+  std::optional<EpaCheck> run_epa;
+  double best_plane = -1e300;
+
+  explicit Walk(CheckContext& context) : c(context) { begin(); }
+  void begin() { run_gjk.emplace(c), run_epa.emplace(c); }
+
+  void operator()(const recorded::GjkBegan& e) {
+    begin();
+    (*run_gjk)(e);
+  }
+  void operator()(const recorded::SupportQueried& e) {
+    if (e.phase == Phase::gjk) {
+      (*run_gjk)(e);
+      best_plane = std::max(best_plane, run_gjk->best_plane());
+    } else {
+      c.check_direction(e.direction);
+    }
+    c.vertices[e.vertex] = e.w;
+  }
+  void operator()(const recorded::SimplexReduced& e) { (*run_gjk)(e); }
+  void operator()(const recorded::GjkEnded& e) { (*run_gjk)(e); }
+  void operator()(const recorded::PolytopeSeeded& e) { (*run_epa)(e); }
+  void operator()(const recorded::FaceChosen& e) { (*run_epa)(e); }
+  void operator()(const recorded::PolytopeGrown& e) { (*run_epa)(e); }
+  void operator()(const recorded::EpaEnded& e) { (*run_epa)(e); }
+  /// What `run` noted when a solver failed.
+  void operator()(const recorded::Warning& e) {
+    for (const char* code : {"timeout", "crash", "bad-message", "support-limit", "no-result"})
+      if (e.code == code) c.find(code, e.message);
+  }
+};
+
+}  // namespace
+
+std::vector<Finding> check(const Recording& recording) {
+  CheckContext context(recording);
+  Walk walk(context);
+  for (std::size_t i = 0; i < recording.events.size(); ++i) {
+    context.step = i;
+    std::visit(walk, recording.events[i]);
+  }
+  if (recording.result.status != "aborted") check_result(context, walk.best_plane);
+  return context.take();
+}
+
+std::string findings_to_json(const std::vector<Finding>& findings) {
+  std::string out = "{\"findings\": [";
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    const Finding& f = findings[i];
+    out += i == 0 ? "\n" : ",\n";
+    out += "{\"step\": " + std::to_string(f.step) + ", \"severity\": \"" + (f.severity == Finding::Severity::error ? "error" : "warning") + "\", \"code\": \"" + f.code + "\", \"message\": ";
+    append_string(out, f.message);
+    out += '}';
+  }
+  return out + (findings.empty() ? "]}\n" : "\n]}\n");
+}
+
+}  // namespace gjkdbg

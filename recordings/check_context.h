@@ -1,0 +1,117 @@
+// What the parts of `check` share: the scene's supports, tolerances, the vertices so far, and the findings.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+
+#include "recordings/check.h"
+#include "shapes/world_support.h"
+
+namespace gjkdbg {
+
+/// The point nearest the origin of the hull of a few points, and the smallest subset that holds it. By trying all subsets.
+struct NearestPoint {
+  AnyVector v;
+  std::vector<int> subset;  ///< positions in the list
+};
+NearestPoint nearest_point(const std::vector<AnyVector>& points);
+
+std::string text_of(double x);
+std::string text_of(const AnyVector& v);
+
+class CheckContext {
+ public:
+  explicit CheckContext(const Recording& recording);
+
+  const Recording& recording;
+  const int dimension;
+  std::size_t step = 0;
+  std::map<int, AnyVector> vertices;  ///< w by number
+  double size = 0;                    ///< the largest length met: what tolerances are relative to
+  double tolerance = 1e-9;            ///< absolute, for positions
+  double stop = 1e-6;                 ///< relative: how far apart the bounds may be when a phase says it has converged
+  bool has_supports = false;          ///< false for meshes: then only what the recording itself holds is judged
+  bool cores = true;                  ///< whether the recorded vertices are those of the cores, or of the whole bodies
+  double radius = 0;                  ///< between the recorded vertices' difference and the bodies
+
+  /// max d.w over the difference the vertices are from, divided by |d|.
+  double height(const AnyVector& direction) const;
+  /// The same over the bodies, radii included.
+  double body_height(const AnyVector& direction) const;
+
+  void find(const char* code, const std::string& message, Finding::Severity severity = Finding::Severity::error);
+  std::vector<Finding> take();
+
+  /// The position of a vertex; a finding, and nothing, when it was never handed out.
+  const AnyVector* vertex(int number);
+  bool check_direction(const AnyVector& d);
+
+ private:
+  std::optional<WorldSupport> a_, b_;
+  std::vector<Finding> findings_;
+  std::set<std::string> seen_;
+};
+
+/// GJK's part of a run: directions, simplices, progress, and the claim it ends with.
+class GjkCheck {
+ public:
+  explicit GjkCheck(CheckContext& context) : c_(context) {}
+  void operator()(const recorded::GjkBegan& e);
+  void operator()(const recorded::SupportQueried& e);
+  void operator()(const recorded::SimplexReduced& e);
+  void operator()(const recorded::GjkEnded& e);
+  double best_plane() const { return best_plane_; }  ///< the greatest distance a support plane has proven, of the vertices' difference
+
+ private:
+  std::vector<AnyVector> points(const std::vector<int>& numbers);
+  void check_towards_origin(const AnyVector& d);
+  void check_progress(const recorded::SupportQueried& e);
+  void check_region(const recorded::SimplexReduced& e);
+  void check_cycle(const std::vector<int>& region);
+  bool heuristic_region(const std::vector<int>& before, const AnyVector& v);
+
+  CheckContext& c_;
+  std::vector<int> simplex_, pending_;  ///< kept, and queried since
+  bool reported_ = false;               ///< whether any simplex was
+  bool idle_query_ = false;             ///< the last query brought nothing new
+  std::size_t idle_step_ = 0;
+  double best_plane_ = -1e300;
+  std::map<std::string, std::size_t> regions_;
+  std::optional<std::size_t> repeated_from_, repeated_at_;
+  std::map<std::string, std::vector<std::size_t>> directions_;
+};
+
+/// EPA's part.
+class EpaCheck {
+ public:
+  explicit EpaCheck(CheckContext& context) : c_(context) {}
+  void operator()(const recorded::PolytopeSeeded& e);
+  void operator()(const recorded::FaceChosen& e);
+  void operator()(const recorded::PolytopeGrown& e);
+  void operator()(const recorded::EpaEnded& e);
+
+ private:
+  struct Face {
+    std::vector<int> vertices;
+    AnyVector normal;      ///< out of the polytope, ours
+    double distance = 0;   ///< ours
+    bool usable = true;
+  };
+  void add(const recorded::Face& f);
+  void orient(const std::vector<recorded::Face>& added);
+  void check_normal(int number, const AnyVector& given);
+  void check_closed();
+  void check_convex(std::optional<int> newest);
+  void check_origin();
+  AnyVector centre();
+
+  CheckContext& c_;
+  std::map<int, Face> faces_;
+  std::optional<int> chosen_;
+};
+
+/// The answer against our own.
+void check_result(CheckContext& context, double best_plane);
+
+}  // namespace gjkdbg

@@ -1,0 +1,168 @@
+// check, EPA's part.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "recordings/check_context.h"
+
+namespace gjkdbg {
+namespace {
+
+std::string face_name(int number) { return "face " + std::to_string(number); }
+
+/// Across a face, not oriented; its length is twice the area (2D: the edge's length, 1D: 1).
+AnyVector across(const std::vector<AnyVector>& w, int dimension) {
+  if (dimension == 3 && w.size() == 3) return Eigen::Vector3d(w[1] - w[0]).cross(Eigen::Vector3d(w[2] - w[0]));
+  if (dimension == 2 && w.size() == 2) return Eigen::Vector2d(w[1][1] - w[0][1], w[0][0] - w[1][0]);
+  return AnyVector::Ones(dimension);
+}
+
+}  // namespace
+
+/// A point inside: the mean of the vertices in use.
+AnyVector EpaCheck::centre() {
+  std::set<int> used;
+  for (const auto& [number, face] : faces_) used.insert(face.vertices.begin(), face.vertices.end());
+  AnyVector sum = AnyVector::Zero(c_.dimension);
+  int count = 0;
+  for (const int v : used)
+    if (const auto found = c_.vertices.find(v); found != c_.vertices.end()) sum += found->second, ++count;
+  return count > 0 ? AnyVector(sum / count) : sum;
+}
+
+void EpaCheck::add(const recorded::Face& f) {
+  Face face;
+  face.vertices = f.vertices;
+  std::vector<AnyVector> w;
+  for (const int v : f.vertices)
+    if (const AnyVector* p = c_.vertex(v)) w.push_back(*p);
+  face.usable = static_cast<int>(w.size()) == c_.dimension && w.size() == f.vertices.size();
+  if (face.usable) {
+    face.normal = across(w, c_.dimension);
+    double longest = 0;
+    for (const AnyVector& p : w) longest = std::max(longest, (p - w[0]).norm());
+    const double area = face.normal.norm();
+    if (c_.dimension > 1 && area <= 1e-13 * (c_.dimension == 3 ? longest * longest : c_.size)) {
+      c_.find("zero-area-face", "The face of vertices " + std::to_string(f.vertices[0]) + ", " + std::to_string(f.vertices[1]) + ", … has no area, so it has no normal. The usual cause is a new vertex in line with an edge of the horizon, or one "
+                                "that the polytope already had: stop, or remove the face behind that edge too.");
+      face.usable = false;
+    } else {
+      face.normal /= area;
+      face.distance = face.normal.dot(w[0]);
+    }
+  }
+  faces_[f.face] = face;
+}
+
+/// Turns new faces outwards, and compares with the normals the recording gives.
+void EpaCheck::orient(const std::vector<recorded::Face>& added) {
+  const AnyVector inside = centre();
+  for (const auto& f : added) {
+    Face& face = faces_[f.face];
+    if (!face.usable) continue;
+    if (face.distance < face.normal.dot(inside)) face.normal = -face.normal, face.distance = -face.distance;
+    check_normal(f.face, f.normal);
+  }
+}
+
+void EpaCheck::check_normal(int number, const AnyVector& given) {
+  const AnyVector& right = faces_[number].normal;
+  if (right.dot(given) < -1e-6 * given.norm())
+    c_.find("flipped-face-normal", "The normal " + text_of(given) + " of " + face_name(number) + " points into the polytope; expected is " + text_of(right) +
+                                       ". The usual cause is a winding that was not kept: turn the normal so that it looks away from a point inside.");
+}
+
+void EpaCheck::operator()(const recorded::PolytopeSeeded& e) {
+  faces_.clear(), chosen_.reset();
+  for (const int v : e.vertices) c_.vertex(v);
+  for (const auto& f : e.faces) add(f);
+  orient(e.faces);
+  check_closed();
+  check_convex(std::nullopt);
+  check_origin();
+}
+
+void EpaCheck::operator()(const recorded::PolytopeGrown& e) {
+  if (!c_.vertex(e.vertex)) return;
+  for (const int f : e.removed) faces_.erase(f);
+  for (const auto& f : e.added) add(f);
+  orient(e.added);
+  check_closed();
+  check_convex(e.vertex);
+  check_origin();
+}
+
+/// Every edge joins exactly two faces (2D: every vertex two edges; 1D: two ends).
+void EpaCheck::check_closed() {
+  std::map<std::array<int, 2>, int> uses;
+  for (const auto& [number, face] : faces_) {
+    const std::size_t n = face.vertices.size();
+    for (std::size_t i = 0; i < n; ++i) {
+      const int p = face.vertices[i], q = face.vertices[(i + 1) % n];
+      if (c_.dimension == 3) ++uses[{std::min(p, q), std::max(p, q)}];
+      else if (c_.dimension == 2) ++uses[{p, p}];
+    }
+  }
+  for (const auto& [edge, count] : uses)
+    if (count != 2) {
+      c_.find("open-polytope", (c_.dimension == 3 ? "The edge " + std::to_string(edge[0]) + "-" + std::to_string(edge[1]) : "The vertex " + std::to_string(edge[0])) + " belongs to " + std::to_string(count) +
+                                   (c_.dimension == 3 ? " faces" : " edges") + " instead of 2: the polytope is not closed. The usual cause is a horizon that was collected with shared edges left in, or with one lost.");
+      return;
+    }
+}
+
+/// No vertex may lie beyond a face. A face the newest vertex sees should have gone.
+void EpaCheck::check_convex(std::optional<int> newest) {
+  std::set<int> used;
+  for (const auto& [number, face] : faces_) used.insert(face.vertices.begin(), face.vertices.end());
+  const double limit = std::max(1e-6 * c_.size, c_.tolerance);
+  for (const auto& [number, face] : faces_) {
+    if (!face.usable) continue;
+    for (const int v : used) {
+      const auto found = c_.vertices.find(v);
+      if (found == c_.vertices.end()) continue;
+      const double beyond = face.normal.dot(found->second) - face.distance;
+      if (beyond <= limit) continue;
+      if (newest == v)
+        c_.find("visible-face-kept", "Vertex " + std::to_string(v) + " sees " + face_name(number) + " from " + text_of(beyond) + " beyond it, but the face was kept. Every face with normal . w > distance must go before the horizon is closed.");
+      else
+        c_.find("non-convex-polytope", "Vertex " + std::to_string(v) + " lies " + text_of(beyond) + " beyond " + face_name(number) + ": the polytope is not convex. The usual cause is splitting only the nearest face instead of removing every face the new vertex sees.");
+      return;
+    }
+  }
+}
+
+void EpaCheck::check_origin() {
+  for (const auto& [number, face] : faces_)
+    if (face.usable && face.distance < -std::max(1e-7 * c_.size, c_.tolerance)) {
+      c_.find("origin-outside-polytope", "The origin lies " + text_of(-face.distance) + " outside " + face_name(number) + ". EPA needs a start that holds the origin: begin with a simplex GJK has proven to, and complete one with too few vertices by asking across it.");
+      return;
+    }
+}
+
+void EpaCheck::operator()(const recorded::FaceChosen& e) {
+  chosen_ = e.face;
+  const auto found = faces_.find(e.face);
+  if (found == faces_.end() || !found->second.usable) return;
+  const Face& face = found->second;
+  check_normal(e.face, e.normal);
+  for (const auto& [number, other] : faces_) {
+    if (!other.usable || other.distance >= face.distance - std::max(1e-7 * c_.size, c_.tolerance)) continue;
+    c_.find("not-closest-face", face_name(e.face) + " was chosen, " + text_of(face.distance) + " from the origin, but " + face_name(number) + " is nearer, at " + text_of(other.distance) +
+                                    ". EPA's bound holds for the nearest face only. The usual cause is comparing distances of normals that were not normalised, or a stale queue entry.");
+    return;
+  }
+}
+
+void EpaCheck::operator()(const recorded::EpaEnded& e) {
+  if (e.status != EpaStatus::converged || !c_.has_supports) return;
+  const auto found = faces_.find(e.face >= 0 ? e.face : chosen_.value_or(-1));
+  if (found == faces_.end() || !found->second.usable) return;
+  const Face& face = found->second;
+  const double height = c_.height(face.normal);
+  if (height - face.distance > c_.stop * std::max(height, c_.size))
+    c_.find("stopped-early", "EPA ended at " + face_name(found->first) + ", " + text_of(face.distance) + " from the origin, but A - B reaches " + text_of(height) + " along its normal: the face is not on the boundary. The usual cause is a tolerance that is too coarse, or a "
+                             "limit on iterations taken for convergence.");
+}
+
+}  // namespace gjkdbg

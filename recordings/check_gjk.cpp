@@ -1,0 +1,194 @@
+// check, GJK's part.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "recordings/check_context.h"
+
+namespace gjkdbg {
+namespace {
+
+std::string list_of(const std::vector<int>& numbers) {
+  std::string out = "[";
+  for (std::size_t i = 0; i < numbers.size(); ++i) out += (i > 0 ? ", " : "") + std::to_string(numbers[i]);
+  return out + "]";
+}
+
+/// The bits of a vector, signs of zeros aside: equal keys, equal numbers.
+std::string key_of(const AnyVector& v) {
+  std::string key;
+  for (const double x : v) {
+    const double plain = x == 0 ? 0 : x;
+    key.append(reinterpret_cast<const char*>(&plain), sizeof plain);
+  }
+  return key;
+}
+
+bool contains(const std::vector<int>& list, int x) { return std::find(list.begin(), list.end(), x) != list.end(); }
+
+}  // namespace
+
+std::vector<AnyVector> GjkCheck::points(const std::vector<int>& numbers) {
+  std::vector<AnyVector> out;
+  for (const int n : numbers)
+    if (const AnyVector* w = c_.vertex(n)) out.push_back(*w);
+  return out;
+}
+
+void GjkCheck::operator()(const recorded::GjkBegan& e) { c_.check_direction(e.direction); }
+
+/// The next direction must lead from the simplex towards the origin, and across the feature that was kept.
+void GjkCheck::check_towards_origin(const AnyVector& d) {
+  const std::vector<AnyVector> w = points(simplex_);
+  if (w.empty() || !pending_.empty() || static_cast<int>(w.size()) > c_.dimension) return;
+  const AnyVector v = nearest_point(w).v;
+  if (v.norm() <= c_.tolerance) return;
+  // Any point of the feature's plane will do as "the simplex": in Muratori's form the feature may not be the nearest one.
+  AnyVector nearest_corner = w[0];
+  for (const AnyVector& p : w)
+    if (p.dot(d) > nearest_corner.dot(d)) nearest_corner = p;
+  const double toward = -d.dot(v) / (d.norm() * v.norm());
+  if (toward < -1e-9 && nearest_corner.dot(d) > 0) {
+    c_.find("direction-away-from-origin", "The direction " + text_of(d) + " leads away from the origin: the simplex's nearest point is v = " + text_of(v) + " and d . (-v) is negative (cosine " + text_of(toward) +
+                                              "). Expected is -v or a multiple. The usual cause is a flipped cross product or a missing minus sign.");
+    return;
+  }
+  double worst = 0;
+  for (std::size_t i = 1; i < w.size(); ++i) {
+    const AnyVector edge = w[i] - w[0];
+    if (edge.norm() > c_.tolerance) worst = std::max(worst, std::abs(d.dot(edge)) / (d.norm() * edge.norm()));
+  }
+  if (worst > 1e-4)
+    c_.find("direction-not-perpendicular", "The direction " + text_of(d) + " is not perpendicular to the feature that was kept (cosine with an edge " + text_of(worst) + "), though it leads towards the origin. Expected is " +
+                                               text_of(AnyVector(-v)) + " or a multiple. This costs iterations, not the answer.",
+            Finding::Severity::warning);
+}
+
+/// A query that brings nothing beyond the simplex is the end: a solver that goes on has missed it.
+void GjkCheck::check_progress(const recorded::SupportQueried& e) {
+  const std::vector<AnyVector> w = points(simplex_);
+  if (idle_query_ && repeated_at_ && pending_.empty()) {
+    c_.find("cycle", "The simplex " + list_of(simplex_) + " of step " + std::to_string(*repeated_at_) + " is that of step " + std::to_string(*repeated_from_) +
+                         " again, and the search goes on as it did then: it will never end. Stop when a support is no farther along d than the simplex.");
+  } else if (idle_query_ && pending_.empty()) {
+    c_.find("no-progress", "The support of step " + std::to_string(idle_step_) + " lies no farther along its direction than the simplex, so nothing nearer the origin exists; the search goes on all the same. "
+                           "Stop when |v|^2 - v . w is small beside |v|^2.");
+  }
+  idle_query_ = false;
+  if (w.empty() || !reported_) return;
+  const AnyVector v = nearest_point(w).v;
+  if (v.norm() <= c_.tolerance) return;
+  double most = -1e300;
+  for (const AnyVector& p : w) most = std::max(most, e.direction.dot(p));
+  idle_query_ = e.direction.dot(e.w) - most <= 1e-14 * e.direction.norm() * c_.size;
+  idle_step_ = c_.step;
+}
+
+void GjkCheck::operator()(const recorded::SupportQueried& e) {
+  if (!c_.check_direction(e.direction)) {
+    pending_.insert(pending_.begin(), e.vertex);
+    return;
+  }
+  if (reported_ && pending_.empty()) check_towards_origin(e.direction);
+  check_progress(e);
+  auto& same = directions_[key_of(e.direction)];
+  same.push_back(c_.step);
+  if (same.size() >= 3)
+    c_.find("cycle", "The direction " + text_of(e.direction) + " is searched for the third time (steps " + std::to_string(same[0]) + ", " + std::to_string(same[1]) + " and " + std::to_string(same[2]) +
+                         "): the same supports come back, and the search will never end. Stop when a support is no farther along d than the simplex.");
+  best_plane_ = std::max(best_plane_, -e.direction.stableNormalized().dot(e.w));
+  pending_.insert(pending_.begin(), e.vertex);
+}
+
+/// Of a tetrahedron, Muratori's form looks at one face after the other and keeps the part of the first that has the origin outside:
+/// not always the nearest part, but one from which the search goes on.
+bool GjkCheck::heuristic_region(const std::vector<int>& before, const AnyVector& v) {
+  const std::vector<AnyVector> w = points(before);
+  const std::size_t corners = static_cast<std::size_t>(c_.dimension) + 1;
+  if (w.size() != corners) return false;
+  for (std::size_t left_out = 0; left_out < corners; ++left_out) {
+    std::vector<AnyVector> face;
+    for (std::size_t i = 0; i < corners; ++i)
+      if (i != left_out) face.push_back(w[i]);
+    AnyVector n;
+    if (c_.dimension == 3) n = Eigen::Vector3d(face[1] - face[0]).cross(Eigen::Vector3d(face[2] - face[0]));
+    else if (c_.dimension == 2) n = Eigen::Vector2d(face[1][1] - face[0][1], face[0][0] - face[1][0]);
+    else n = AnyVector::Ones(1);
+    if (n.dot(w[left_out] - face[0]) > 0) n = -n;
+    const bool origin_outside = -n.dot(face[0]) >= -c_.tolerance * n.norm();
+    if (origin_outside && nearest_point(face).v.norm() >= v.norm() - c_.tolerance) return true;
+  }
+  return false;
+}
+
+void GjkCheck::check_region(const recorded::SimplexReduced& e) {
+  // What there was to keep: the last simplex, what was asked for since, and what the event itself says.
+  std::vector<int> before = pending_;
+  for (const std::vector<int>* list : {&std::as_const(simplex_), &e.before})
+    for (const int n : *list)
+      if (!contains(before, n)) before.push_back(n);
+  const std::vector<AnyVector> all = points(before), kept = points(e.region);
+  if (kept.empty() || all.empty() || all.size() > 6) return;
+  const NearestPoint best = nearest_point(all);
+  const AnyVector v = nearest_point(kept).v;
+  if (v.norm() <= best.v.norm() + c_.tolerance || heuristic_region(before, v)) return;
+  std::vector<int> right;
+  for (const int i : best.subset) right.push_back(before[static_cast<std::size_t>(i)]);
+  c_.find("wrong-region", "Of " + list_of(before) + " the part " + list_of(e.region) + " was kept, whose nearest point is " + text_of(v.norm()) + " from the origin. The part " + list_of(right) + " comes as near as " +
+                              text_of(best.v.norm()) + ". The usual cause is a region test with a flipped sign, or one made before the vertices were reordered.");
+}
+
+/// Remembers simplices by where their vertices are.
+void GjkCheck::check_cycle(const std::vector<int>& region) {
+  std::vector<std::string> keys;
+  for (const AnyVector& w : points(region)) keys.push_back(key_of(w));
+  std::sort(keys.begin(), keys.end());
+  std::string key;
+  for (const std::string& k : keys) key += k;
+  const auto [found, is_new] = regions_.try_emplace(key, c_.step);
+  repeated_from_.reset(), repeated_at_.reset();
+  if (!is_new && !pending_.empty()) repeated_from_ = found->second, repeated_at_ = c_.step, idle_query_ = true;
+}
+
+void GjkCheck::operator()(const recorded::SimplexReduced& e) {
+  for (const auto* list : {&e.before, &e.region}) points(*list);
+  std::vector<int> sorted = e.region;
+  std::sort(sorted.begin(), sorted.end());
+  const std::vector<AnyVector> w = points(e.region);
+  bool twice = std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+  for (std::size_t i = 0; i < w.size(); ++i)
+    for (std::size_t j = i + 1; j < w.size(); ++j) twice = twice || w[i] == w[j];
+  if (twice)
+    c_.find("duplicate-vertex", "The simplex " + list_of(e.region) + " holds the same point twice, so it has no volume and its normal is zero. The usual cause is going on after a support that the simplex already had: stop there.");
+  if (static_cast<int>(e.region.size()) > c_.dimension + 1)
+    c_.find("simplex-too-large", "The simplex " + list_of(e.region) + " has " + std::to_string(e.region.size()) + " vertices; in " + std::to_string(c_.dimension) + "D it has at most " + std::to_string(c_.dimension + 1) +
+                                     ". The usual cause is a new vertex that is added before the old simplex was reduced.");
+  else if (!twice)
+    check_region(e);
+  check_cycle(e.region);
+  reported_ = true;
+  simplex_ = e.region;
+  pending_.clear();
+}
+
+void GjkCheck::operator()(const recorded::GjkEnded& e) {
+  std::vector<int> last = simplex_;
+  if (!reported_ || (e.status != GjkStatus::enclosed && e.status != GjkStatus::touching && e.status != GjkStatus::converged)) return;
+  const std::vector<AnyVector> w = points(last);
+  if (w.empty()) return;
+  const double v = nearest_point(w).v.norm();
+  if (e.status == GjkStatus::converged) {
+    const double gap = v - best_plane_;
+    if (c_.has_supports && gap > c_.stop * std::max(v, c_.size))
+      c_.find("stopped-early", "GJK ended with its bounds " + text_of(best_plane_ - c_.radius) + " and " + text_of(v - c_.radius) + " of the distance still " + text_of(gap) +
+                                   " apart: there is a nearer point. The usual cause is a tolerance compared with a squared length, or with a length that was not normalised.");
+  } else if (v > std::max(c_.tolerance, 1e-7 * c_.size)) {
+    // The vertices that came after the last reported simplex may have closed it.
+    std::vector<int> all = pending_;
+    all.insert(all.end(), last.begin(), last.end());
+    if (nearest_point(points(all)).v.norm() > std::max(c_.tolerance, 1e-7 * c_.size))
+      c_.find("origin-not-enclosed", "Overlap is claimed from the simplex " + list_of(last) + ", but the origin lies " + text_of(v) + " outside it. The usual cause is a test against a face whose normal points the wrong way.");
+  }
+}
+
+}  // namespace gjkdbg

@@ -1,0 +1,108 @@
+// check, the answer: against our own core's, within its certificate.
+#include <algorithm>
+#include <cmath>
+
+#include "recordings/check_context.h"
+
+namespace gjkdbg {
+namespace {
+
+/// The best answer we have: double precision, default tolerance.
+Result reference(const Scene& scene, Query query) {
+  Scene copy = scene;
+  copy.query = query;
+  Method method;
+  return solve(copy, resolve_settings(method, copy));
+}
+
+/// How far a point lies outside a body.
+double outside(const Scene& scene, std::size_t body, const AnyVector& point) {
+  Scene probe = scene;
+  Body& other = probe.bodies[1 - body];
+  other.shape = {PointSet{PointSetKind::point, {AnyVector::Zero(scene.dimension)}, {}}, 0};
+  if (scene.dimension == 1) other.shape = {Box{AnyVector::Zero(1), AnyVector::Zero(1), false}, 0};
+  other.pose = identity_pose(scene.dimension);
+  other.pose.position = point;
+  return *reference(probe, Query::distance).signed_distance;
+}
+
+struct Judge {
+  CheckContext& c;
+  const Result& r;
+  const Result right;  ///< penetration query
+  double limit;        ///< absolute, on distances
+
+  void answer(double best_plane) const {
+    const double sd = *right.signed_distance;
+    if (std::abs(sd) <= limit || r.intersecting == (sd <= 0)) return;
+    if (!r.intersecting)
+      c.find("unjustified-separation", "The bodies are called apart, but no support proves it: the best plane leaves " + text_of(best_plane - c.radius) + " between them, and it takes a positive number. The usual cause is the wrong sign in the test whether the support passed the origin.");
+    c.find("wrong-answer", std::string("The bodies are called ") + (r.intersecting ? "overlapping" : "apart") + ", but they are " + (sd <= 0 ? "overlapping, " + text_of(-sd) + " deep" : "apart by " + text_of(sd)) + ".");
+  }
+
+  void distance() const {
+    if (!r.signed_distance) return;
+    const bool only_distance = c.recording.scene.scene.query == Query::distance;
+    const double sd = only_distance ? std::max(0.0, *right.signed_distance) : *right.signed_distance;
+    const double error = std::abs(*r.signed_distance - sd);
+    if (error <= limit + (*right.upper_bound - *right.lower_bound)) return;
+    if (only_distance && *right.signed_distance <= 0 && *r.signed_distance <= 0) return;  // a depth was not asked for, but is no error
+    c.find(sd > 0 ? "wrong-distance" : "wrong-depth", "signed_distance is " + text_of(*r.signed_distance) + ", expected " + text_of(sd) + " (certified between " + text_of(*right.lower_bound) + " and " + text_of(*right.upper_bound) + ").");
+  }
+
+  /// Any unit direction along which the bodies are as far apart, or as little deep, as they are at best is a right normal.
+  void normal() const {
+    if (!r.normal || !c.has_supports) return;
+    const AnyVector& n = *r.normal;
+    const double sd = *right.signed_distance;
+    if (c.recording.scene.scene.query == Query::distance && sd <= 0) return;
+    if (std::abs(n.norm() - 1) > 1e-3) {
+      c.find("wrong-normal", "The normal " + text_of(n) + " has length " + text_of(n.norm()) + " instead of 1.");
+      return;
+    }
+    const double slack = 10 * limit + (*right.upper_bound - *right.lower_bound);
+    const double along = -c.body_height(n), against = -c.body_height(-n);
+    if (along >= sd - slack) return;
+    if (against >= sd - slack)
+      c.find("flipped-normal", "The normal " + text_of(n) + " points from body 1 to body 0; expected is " + text_of(AnyVector(-n)) + ", from body 0 towards body 1.");
+    else
+      c.find("wrong-normal", "Along the normal " + text_of(n) + " the bodies are " + (along > 0 ? "apart by " + text_of(along) : text_of(-along) + " deep") + ", but along " + text_of(*right.normal) + " " + (sd > 0 ? "apart by " + text_of(sd) : "only " + text_of(-sd) + " deep") + ".");
+  }
+
+  void witnesses() const {
+    if (!r.witness_a || !r.witness_b) return;
+    const Scene& scene = c.recording.scene.scene;
+    if (!c.has_supports || (scene.query == Query::distance && r.intersecting)) return;
+    const double slack = 10 * limit;
+    const double out_a = outside(scene, 0, *r.witness_a), out_b = outside(scene, 1, *r.witness_b);
+    if (out_a > slack || out_b > slack) {
+      const bool a = out_a > slack;
+      c.find("wrong-witness", std::string("witness_") + (a ? "a " : "b ") + text_of(a ? *r.witness_a : *r.witness_b) + " lies " + text_of(a ? out_a : out_b) + " outside its body. The usual cause is weights that belong to other vertices, or to the wrong face.");
+      return;
+    }
+    if (!r.normal || !r.signed_distance) return;
+    const double off = (*r.witness_b - *r.witness_a - *r.signed_distance * *r.normal).norm();
+    if (off > slack)
+      c.find("wrong-witness", "witness_b - witness_a is " + text_of(AnyVector(*r.witness_b - *r.witness_a)) + ", but signed_distance * normal is " + text_of(AnyVector(*r.signed_distance * *r.normal)) + ": the points and the distance do not belong together.");
+  }
+};
+
+}  // namespace
+
+void check_result(CheckContext& c, double best_plane) {
+  const Recording& recording = c.recording;
+  const bool limited = recording.result.status == "iteration_limit" || recording.result.status == "stalled";
+  const Result right = reference(recording.scene.scene, Query::penetration);
+  const double sd = *right.signed_distance;
+  double limit = std::max(c.stop, 1e-6) * std::max(c.size, std::abs(sd));
+  // What says itself that it is not exact is judged by its own bounds.
+  if (limited && recording.result.lower_bound && recording.result.upper_bound) limit += *recording.result.upper_bound - *recording.result.lower_bound;
+  if (!recording.events.empty()) c.step = recording.events.size() - 1;
+  const Judge judge{c, recording.result, right, limit};
+  judge.answer(best_plane);
+  judge.distance();
+  judge.normal();
+  judge.witnesses();
+}
+
+}  // namespace gjkdbg
