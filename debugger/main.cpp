@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
   add_diff(app, status);
   add_query(app, status);
   add_check(app, status);
+  add_run(app, status);
   add_scenes(app, status);
   try {
     app.parse(argc, argv);

@@ -6,6 +6,7 @@
 #include "recordings/check_context.h"
 #include "recordings/json_writing.h"
 #include "shapes/convex.h"
+#include "shapes/corners.h"
 
 namespace gjkdbg {
 
@@ -68,7 +69,23 @@ CheckContext::CheckContext(const Recording& r) : recording(r), dimension(r.scene
     cores = std::abs(along - height(q->direction)) <= std::abs(along - body_height(q->direction));
     break;
   }
+  const bool round = std::any_of(bodies.begin(), bodies.end(), [&](const Body& b) { return !corners_of(b.shape, dimension); });
+  if (round || (!cores && radius > 0)) stop = std::max(stop, 1e-3);  // bounds on smooth differences meet slowly, in any implementation
   if (!cores) radius = 0;
+}
+
+const Result& CheckContext::reference() {
+  if (!reference_) {
+    Scene scene = recording.scene.scene;
+    scene.query = Query::penetration;
+    reference_ = solve(scene, resolve_settings({}, scene));
+  }
+  return *reference_;
+}
+
+double CheckContext::answer_tolerance() {
+  const Result& r = reference();
+  return stop * std::max(size, std::abs(*r.signed_distance)) + (*r.upper_bound - *r.lower_bound);
 }
 
 double CheckContext::height(const AnyVector& direction) const {

@@ -40,6 +40,11 @@ class CheckContext {
   /// The same over the bodies, radii included.
   double body_height(const AnyVector& direction) const;
 
+  /// Our own answer to the penetration query, in double precision; computed when first asked for.
+  const Result& reference();
+  /// How far a claimed distance or depth may be from it.
+  double answer_tolerance();
+
   void find(const char* code, const std::string& message, Finding::Severity severity = Finding::Severity::error);
   std::vector<Finding> take();
 
@@ -49,6 +54,7 @@ class CheckContext {
 
  private:
   std::optional<WorldSupport> a_, b_;
+  std::optional<Result> reference_;
   std::vector<Finding> findings_;
   std::set<std::string> seen_;
 };

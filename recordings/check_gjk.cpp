@@ -179,7 +179,8 @@ void GjkCheck::operator()(const recorded::GjkEnded& e) {
   const double v = nearest_point(w).v.norm();
   if (e.status == GjkStatus::converged) {
     const double gap = v - best_plane_;
-    if (c_.has_supports && gap > c_.stop * std::max(v, c_.size))
+    const double claimed = v - c_.radius;
+    if (c_.has_supports && gap > c_.stop * std::max(v, c_.size) && std::abs(claimed - *c_.reference().signed_distance) > c_.answer_tolerance())
       c_.find("stopped-early", "GJK ended with its bounds " + text_of(best_plane_ - c_.radius) + " and " + text_of(v - c_.radius) + " of the distance still " + text_of(gap) +
                                    " apart: there is a nearer point. The usual cause is a tolerance compared with a squared length, or with a length that was not normalised.");
   } else if (v > std::max(c_.tolerance, 1e-7 * c_.size)) {

@@ -7,14 +7,6 @@
 namespace gjkdbg {
 namespace {
 
-/// The best answer we have: double precision, default tolerance.
-Result reference(const Scene& scene, Query query) {
-  Scene copy = scene;
-  copy.query = query;
-  Method method;
-  return solve(copy, resolve_settings(method, copy));
-}
-
 /// How far a point lies outside a body.
 double outside(const Scene& scene, std::size_t body, const AnyVector& point) {
   Scene probe = scene;
@@ -23,13 +15,14 @@ double outside(const Scene& scene, std::size_t body, const AnyVector& point) {
   if (scene.dimension == 1) other.shape = {Box{AnyVector::Zero(1), AnyVector::Zero(1), false}, 0};
   other.pose = identity_pose(scene.dimension);
   other.pose.position = point;
-  return *reference(probe, Query::distance).signed_distance;
+  probe.query = Query::distance;
+  return *solve(probe, resolve_settings({}, probe)).signed_distance;
 }
 
 struct Judge {
   CheckContext& c;
   const Result& r;
-  const Result right;  ///< penetration query
+  const Result& right;  ///< penetration query
   double limit;        ///< absolute, on distances
 
   void answer(double best_plane) const {
@@ -92,9 +85,8 @@ struct Judge {
 void check_result(CheckContext& c, double best_plane) {
   const Recording& recording = c.recording;
   const bool limited = recording.result.status == "iteration_limit" || recording.result.status == "stalled";
-  const Result right = reference(recording.scene.scene, Query::penetration);
-  const double sd = *right.signed_distance;
-  double limit = std::max(c.stop, 1e-6) * std::max(c.size, std::abs(sd));
+  const Result& right = c.reference();
+  double limit = c.answer_tolerance();
   // What says itself that it is not exact is judged by its own bounds.
   if (limited && recording.result.lower_bound && recording.result.upper_bound) limit += *recording.result.upper_bound - *recording.result.lower_bound;
   if (!recording.events.empty()) c.step = recording.events.size() - 1;

@@ -1,0 +1,46 @@
+// run: another implementation on a scene, under the debugger, then check.
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "debugger/commands/commands.h"
+#include "debugger/commands/findings.h"
+#include "debugger/commands/input.h"
+#include "debugger/commands/output_file.h"
+#include "debugger/solver/solver_run.h"
+
+namespace gjkdbg {
+namespace {
+
+struct Run {
+  std::string scene, command, output;
+  bool json = false;
+  SolverLimits limits;
+  MethodFlags flags;
+
+  int run() const {
+    const std::string file = scene_path(scene).string();
+    const SceneFile read = read_scene(file);
+    const Recording recording = run_solver(read, flags.resolve(read, file), command, limits);
+    if (!output.empty()) write_output(output, recording_to_text(recording));
+    const std::vector<Finding> findings = check(recording);
+    if (output != "-") print_findings(findings, json);
+    return findings.empty() ? exit_done : exit_difference;
+  }
+};
+
+}  // namespace
+
+void add_run(CLI::App& app, Status& status) {
+  auto options = std::make_shared<Run>();
+  CLI::App* command = app.add_subcommand("run", "Run your own GJK on a scene, then check what it did");
+  command->add_option("SCENE", options->scene, "scene file, or the name of a gallery scene")->required();
+  command->add_option("--exec", options->command, "the program, as a shell would start it")->required();
+  command->add_option("-o,--output", options->output, "file for the recording");
+  command->add_flag("--json", options->json, "findings as JSON");
+  command->add_option("--max-supports,--max_supports", options->limits.max_supports, "support queries (1000)")->check(CLI::Range(1, 10000000));
+  command->add_option("--timeout", options->limits.timeout, "seconds (10)")->check(CLI::Range(0.01, 86400.0));
+  options->flags.add_to(*command);
+  command->callback([options, &status] { status = options->run(); });
+}
+
+}  // namespace gjkdbg

@@ -1,0 +1,227 @@
+#!/usr/bin/env python3
+"""GJK and EPA to read as a lesson, in 1D, 2D and 3D, and the few lines that put your own under gjkdbg:
+
+    gjkdbg run SCENE --exec "python3 gjk.py"
+
+Replace `solve` by yours. All it needs is `support(d)`: the farthest point w of A - B along d, with a and b, w = a - b. The calls of
+`say` are optional; the more you report, the earlier gjkdbg can tell where it went wrong.
+"""
+import json
+import sys
+from itertools import combinations
+
+# --- The protocol: one JSON message a line ---------------------------------------------------------------------
+
+
+def say(**message):
+    print(json.dumps(message), flush=True)
+
+
+class Vertex:
+    """A support point: `number` is its name in messages."""
+
+    def __init__(self, reply):
+        self.number, self.w, self.a, self.b = reply["vertex"], reply["w"], reply["a"], reply["b"]
+
+
+def support(d):
+    say(type="support", direction=d)
+    return Vertex(json.loads(sys.stdin.readline()))
+
+
+# --- Vectors ------------------------------------------------------------------------------------------------------
+
+
+def dot(x, y):
+    return sum(p * q for p, q in zip(x, y))
+
+
+def minus(x, y):
+    return [p - q for p, q in zip(x, y)]
+
+
+def scaled(s, x):
+    return [s * p for p in x]
+
+
+def length(x):
+    return dot(x, x) ** 0.5
+
+
+def combine(weights, points):
+    return [sum(t * p[i] for t, p in zip(weights, points)) for i in range(len(points[0]))]
+
+
+def across(e, like):
+    """`like` without its part along the unit vector e."""
+    return minus(like, scaled(dot(e, like), e))
+
+
+# --- GJK: the nearest part of a simplex --------------------------------------------------------------------------
+
+
+def affine_weights(points):
+    """Weights of the point nearest the origin in the flat through the points, or None when they do not span it.
+    With p0 + sum t_i e_i, e_i = p_i - p0, the nearest has e_j . (p0 + sum t_i e_i) = 0 for all j: solved by elimination."""
+    e = [minus(p, points[0]) for p in points[1:]]
+    rows = [[dot(x, y) for y in e] + [-dot(x, points[0])] for x in e]
+    n = len(rows)
+    for c in range(n):
+        best = max(range(c, n), key=lambda r: abs(rows[r][c]))
+        rows[c], rows[best] = rows[best], rows[c]
+        if abs(rows[c][c]) <= 1e-14 * dot(e[c], e[c]):
+            return None
+        for r in range(n):
+            if r != c:
+                f = rows[r][c] / rows[c][c]
+                rows[r] = [x - f * y for x, y in zip(rows[r], rows[c])]
+    t = [rows[i][n] / rows[i][i] for i in range(n)]
+    return [1 - sum(t)] + t
+
+
+def nearest(simplex):
+    """The part of the simplex nearest the origin: (its vertices, its nearest point). Tries every part; slow, and never wrong."""
+    best = None
+    for size in range(1, len(simplex) + 1):
+        for part in combinations(simplex, size):
+            weights = affine_weights([x.w for x in part])
+            if weights is None or min(weights) < 0:
+                continue
+            v = combine(weights, [x.w for x in part])
+            if best is None or dot(v, v) < best[2]:
+                best = (list(part), v, dot(v, v), weights)
+    return best[0], best[1], best[3]
+
+
+def gjk(dimension, tolerance):
+    """(vertices, v, weights): |v| is the distance; v = 0 when they overlap."""
+    simplex = [support([1.0] + [0.0] * (dimension - 1))]
+    v, weights = simplex[0].w, [1.0]
+    scale = length(v)
+    while True:
+        say(type="simplex", vertices=[x.number for x in simplex], closest=v)
+        if length(v) <= 1e-12 * scale or len(simplex) == dimension + 1:
+            return simplex, [0.0] * dimension, weights
+        w = support(scaled(-1, v))
+        scale = max(scale, length(w.w))
+        if dot(v, v) - dot(v, w.w) <= tolerance * dot(v, v) or any(w.w == x.w for x in simplex):
+            return simplex, v, weights
+        kept, nearer, weights_now = nearest([w] + simplex)
+        if dot(nearer, nearer) >= dot(v, v):
+            return simplex, v, weights  # rounding: no nearer part can be told
+        simplex, v, weights = kept, nearer, weights_now
+
+
+# --- EPA -----------------------------------------------------------------------------------------------------------
+
+
+def complete(simplex, dimension):
+    """Vertices until they span the space; (vertices, None), or (vertices, normal) when A - B is flat across `normal`."""
+    points, basis = [simplex[0]], []
+    scale = 1e-300 + max(length(x.w) for x in simplex)
+
+    def off(x):
+        y = minus(x.w, points[0].w)
+        for e in basis:
+            y = across(e, y)
+        return y
+
+    while len(points) <= dimension:
+        candidates = [x for x in simplex if length(off(x)) > 1e-7 * scale]
+        if not candidates:
+            axes = [[float(i == k) for i in range(dimension)] for k in range(dimension)]
+            for e in basis:
+                axes = [across(e, x) for x in axes]
+            axis = max(axes, key=length)
+            axis = scaled(1 / length(axis), axis)
+            candidates = [support(axis), support(scaled(-1, axis))]
+        best = max(candidates, key=lambda x: length(off(x)))
+        y = off(best)
+        scale = max(scale, length(best.w))
+        if length(y) <= 1e-10 * scale:
+            return points, axis
+        basis.append(scaled(1 / length(y), y))
+        points.append(best)
+    return points, None
+
+
+def plane(vertices, inside):
+    """Unit normal away from `inside`, and distance from the origin."""
+    p = [x.w for x in vertices]
+    if len(p) == 3:
+        x, y = minus(p[1], p[0]), minus(p[2], p[0])
+        n = [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]]
+    else:
+        n = [1.0] if len(p) == 1 else [p[1][1] - p[0][1], p[0][0] - p[1][0]]
+    size = length(n)
+    if size == 0:
+        return None
+    n = scaled((1 if dot(n, minus(p[0], inside)) > 0 else -1) / size, n)
+    return n, dot(n, p[0])
+
+
+def epa(simplex, dimension, tolerance):
+    """(depth, normal, point a, point b)."""
+    points, flat = complete(simplex, dimension)
+    if flat:
+        _, _, weights = nearest(simplex)
+        kept = nearest(simplex)[0]
+        return 0.0, flat, combine(weights, [x.a for x in kept]), combine(weights, [x.b for x in kept])
+    rounding = 1e-14 * max(length(x.w) for x in points)
+    inside = combine([1 / len(points)] * len(points), [x.w for x in points])
+    faces = [(list(f),) + plane(f, inside) for f in combinations(points, dimension)]
+    while True:
+        say(type="polytope", faces=[[x.number for x in f[0]] for f in faces])
+        face, normal, distance = min(faces, key=lambda f: f[2])
+        say(type="face", vertices=[x.number for x in face], normal=normal, distance=distance)
+        w = support(normal)
+        height = dot(normal, w.w)
+        known = any(w.w == x.w for f in faces for x in f[0])
+        if height - distance <= max(tolerance * height, rounding) or known or len(faces) > 600:
+            break
+        seen = [f for f in faces if dot(f[1], w.w) > f[2] + rounding]
+        # The horizon: what belongs to one removed face only.
+        ridges = [frozenset(r) for f in seen for r in combinations(f[0], dimension - 1)]
+        horizon = [r for r in ridges if ridges.count(r) == 1]
+        new = [list(r) + [w] for r in horizon]
+        planes = [plane(f, inside) for f in new]
+        if None in planes:
+            break
+        faces = [f for f in faces if f not in seen] + [(f,) + p for f, p in zip(new, planes)]
+    # The nearest point of the face is the origin's projection: its weights give the points on the bodies.
+    shifted = [minus(x.w, scaled(distance, normal)) for x in face]
+    best = min((f for f in faces if f[2] <= distance + 1e-9 * abs(height)), key=lambda f: length(foot(f[0], normal, distance)[0]), default=None)
+    _, weights = foot(best[0], normal, distance) if best else (shifted, [1 / len(face)] * len(face))
+    face = best[0] if best else face
+    return height, normal, combine(weights, [x.a for x in face]), combine(weights, [x.b for x in face])
+
+
+def foot(face, normal, distance):
+    """What is missing from the face's nearest point to the projection of the origin, and that point's weights."""
+    class Shifted:
+        def __init__(self, x):
+            self.x, self.w = x, minus(x.w, scaled(distance, normal))
+    kept, v, weights = nearest([Shifted(x) for x in face])
+    full = {k.x.number: t for k, t in zip(kept, weights)}
+    return v, [full.get(x.number, 0.0) for x in face]
+
+
+def solve(dimension, query, tolerance):
+    simplex, v, weights = gjk(dimension, max(tolerance, 1e-12))
+    distance = length(v)
+    if query == "intersect":
+        return dict(intersecting=distance == 0)
+    if distance > 0:
+        a, b = combine(weights, [x.a for x in simplex]), combine(weights, [x.b for x in simplex])
+        return dict(intersecting=False, signed_distance=distance, normal=scaled(-1 / distance, v), witness_a=a, witness_b=b)
+    if query == "distance":
+        return dict(intersecting=True, signed_distance=0.0)
+    depth, normal, a, b = epa(simplex, dimension, max(tolerance, 1e-6))
+    middle = combine([0.5, 0.5], [a, b])
+    return dict(intersecting=True, signed_distance=-depth, normal=normal, witness_a=combine([1, depth / 2], [middle, normal]),
+                witness_b=combine([1, -depth / 2], [middle, normal]))
+
+
+if __name__ == "__main__":
+    scene = json.loads(sys.stdin.readline())
+    say(type="result", **solve(scene["dimension"], scene["query"], scene["tolerance"]))

@@ -1,0 +1,121 @@
+#include "debugger/solver/solver_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <thread>
+
+#include "shapes/error.h"
+
+namespace gjkdbg {
+namespace {
+
+int milliseconds_until(SolverProcess::Deadline deadline) {
+  const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now()).count();
+  return static_cast<int>(std::clamp<long long>(left + 1, 0, 1000000));
+}
+
+bool expired(SolverProcess::Deadline deadline) { return std::chrono::steady_clock::now() >= deadline; }
+
+[[noreturn]] void run_child(const std::string& command, const int in[2], const int out[2]) {
+  setpgid(0, 0);
+  dup2(in[0], STDIN_FILENO);
+  dup2(out[1], STDOUT_FILENO);
+  signal(SIGPIPE, SIG_DFL);
+  execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
+  _exit(127);
+}
+
+}  // namespace
+
+SolverProcess::SolverProcess(const std::string& command) {
+  int in[2], out[2];
+  if (pipe2(in, O_CLOEXEC) != 0) throw Error("cannot-start", std::string("cannot be started: ") + std::strerror(errno), "--exec");
+  if (pipe2(out, O_CLOEXEC) != 0) throw Error("cannot-start", std::string("cannot be started: ") + std::strerror(errno), "--exec");
+  pid_ = fork();
+  if (pid_ == 0) run_child(command, in, out);
+  close(in[0]), close(out[1]);
+  if (pid_ < 0) throw Error("cannot-start", std::string("cannot be started: ") + std::strerror(errno), "--exec");
+  setpgid(pid_, pid_);  // both sides do: whoever comes first
+  to_ = in[1], from_ = out[0];
+  fcntl(to_, F_SETFL, O_NONBLOCK);
+  fcntl(from_, F_SETFL, O_NONBLOCK);
+}
+
+SolverProcess::~SolverProcess() {
+  close_input();
+  if (from_ >= 0) close(from_);
+  if (pid_ <= 0) return;
+  kill(-pid_, SIGKILL);
+  int status = 0;
+  waitpid(pid_, &status, 0);
+}
+
+void SolverProcess::close_input() {
+  if (to_ >= 0) close(to_);
+  to_ = -1;
+}
+
+SolverProcess::Outcome SolverProcess::write_line(const std::string& line, Deadline deadline) {
+  const std::string text = line + "\n";
+  std::size_t sent = 0;
+  while (sent < text.size()) {
+    const ssize_t n = write(to_, text.data() + sent, text.size() - sent);
+    if (n > 0) {
+      sent += static_cast<std::size_t>(n);
+    } else if (n < 0 && errno == EAGAIN) {
+      pollfd wait{to_, POLLOUT, 0};
+      poll(&wait, 1, milliseconds_until(deadline));
+      if (expired(deadline)) return Outcome::timeout;
+    } else if (!(n < 0 && errno == EINTR)) {
+      return Outcome::closed;
+    }
+  }
+  return Outcome::ok;
+}
+
+SolverProcess::Outcome SolverProcess::read_line(std::string& line, Deadline deadline) {
+  while (true) {
+    if (const std::size_t end = buffer_.find('\n'); end != std::string::npos) {
+      line = buffer_.substr(0, end);
+      buffer_.erase(0, end + 1);
+      return Outcome::ok;
+    }
+    if (buffer_.size() > longest_line) return Outcome::too_long;
+    if (expired(deadline)) return Outcome::timeout;
+    pollfd wait{from_, POLLIN, 0};
+    poll(&wait, 1, milliseconds_until(deadline));
+    char chunk[65536];
+    const ssize_t n = read(from_, chunk, sizeof chunk);
+    if (n > 0) {
+      buffer_.append(chunk, static_cast<std::size_t>(n));
+    } else if (n == 0 || (errno != EAGAIN && errno != EINTR)) {
+      line = std::move(buffer_);
+      buffer_.clear();
+      return Outcome::closed;
+    }
+  }
+}
+
+std::optional<std::string> SolverProcess::wait(Deadline deadline) {
+  while (true) {
+    int status = 0;
+    const pid_t done = waitpid(pid_, &status, WNOHANG);
+    if (done == pid_) {
+      kill(-pid_, SIGKILL);  // what it may have left running
+      pid_ = -1;
+      if (WIFSIGNALED(status)) return "signal " + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")";
+      return WEXITSTATUS(status) == 0 ? "" : "exit status " + std::to_string(WEXITSTATUS(status));
+    }
+    if (done < 0 || expired(deadline)) return std::nullopt;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
+
+}  // namespace gjkdbg

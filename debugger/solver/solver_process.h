@@ -1,0 +1,39 @@
+// A program of someone else's, run under our eyes: lines to its standard input, lines from its standard output, within limits.
+// POSIX (Linux, macOS); on Windows it would need job objects and is not available.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+namespace gjkdbg {
+
+class SolverProcess {
+ public:
+  /// Starts `command` by /bin/sh in a process group of its own; its standard error is ours. Throws Error when that fails.
+  explicit SolverProcess(const std::string& command);
+  /// Kills the whole group it started, and nothing else.
+  ~SolverProcess();
+  SolverProcess(const SolverProcess&) = delete;
+  SolverProcess& operator=(const SolverProcess&) = delete;
+
+  using Deadline = std::chrono::steady_clock::time_point;
+  enum class Outcome { ok, timeout, closed, too_long };
+
+  Outcome write_line(const std::string& line, Deadline deadline);
+  /// A line without its end. `closed`: the program has closed its output; an unfinished last line is in `line`.
+  Outcome read_line(std::string& line, Deadline deadline);
+  void close_input();
+  /// How it ended, if it does by the deadline: "exit status 3", "signal 11 (Segmentation fault)"; "" for exit status 0.
+  std::optional<std::string> wait(Deadline deadline);
+
+ private:
+  static constexpr std::size_t longest_line = 1 << 20;
+  pid_t pid_ = -1;
+  int to_ = -1, from_ = -1;
+  std::string buffer_;
+};
+
+}  // namespace gjkdbg

@@ -1,0 +1,269 @@
+#include "debugger/solver/solver_recorder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "recordings/json_writing.h"
+
+namespace gjkdbg {
+namespace {
+
+const double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Numbers that JSON has no word for (NaN, Infinity, as Python and others write them) become null, outside strings.
+std::string without_nan(const std::string& line) {
+  std::string out;
+  bool in_string = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"' && (i == 0 || line[i - 1] != '\\')) in_string = !in_string;
+    bool replaced = false;
+    for (const std::string word : {"-Infinity", "Infinity", "-NaN", "NaN", "-nan", "nan", "-inf", "inf"})
+      if (!in_string && line.compare(i, word.size(), word) == 0) {
+        out += "null";
+        i += word.size() - 1;
+        replaced = true;
+        break;
+      }
+    if (!replaced) out += line[i];
+  }
+  return out;
+}
+
+/// A vector whose components may be null (not finite).
+AnyVector loose_vector(const Json& json, const Place& place, int dimension) {
+  if (!json.is_array() || json.size() != static_cast<std::size_t>(dimension)) return read_vector(json, place, dimension);
+  AnyVector v(dimension);
+  for (std::size_t i = 0; i < json.size(); ++i) v[static_cast<Eigen::Index>(i)] = json[i].is_null() ? nan : read_number(json[i], Place(place, i));
+  return v;
+}
+
+}  // namespace
+
+SolverRecorder::SolverRecorder(const SceneFile& scene, const Settings& settings)
+    : a_(scene.scene.bodies[0], scene.scene.dimension), b_(scene.scene.bodies[1], scene.scene.dimension), dimension_(scene.scene.dimension) {
+  recording_.generator = "a solver under " + generator_name();
+  recording_.scene = scene;
+  recording_.settings = settings;
+}
+
+std::string SolverRecorder::scene_message() const {
+  std::string out = "{\"type\":\"scene\",\"dimension\":" + std::to_string(dimension_) + ",\"query\":\"" + std::string(query_names[static_cast<std::size_t>(recording_.scene.scene.query)]) + "\",\"tolerance\":";
+  append_number(out, recording_.settings.tolerance);
+  return out + "}";
+}
+
+std::string SolverRecorder::take(const std::string& line) {
+  const Json json = parse_json(without_nan(line));
+  const Place root;
+  if (!json.is_object()) reject(root, "bad-message", "is no JSON object");
+  const auto type = json.find("type");
+  if (type == json.end() || !type->is_string()) reject(Place(root, "type"), "bad-message", "is missing");
+  const std::string name = type->get<std::string>();
+  if (name == "support") return support(json);
+  if (name == "simplex") simplex(json);
+  else if (name == "polytope") polytope(json);
+  else if (name == "face") face(json);
+  else if (name == "result") result(json);
+  else reject(Place(root, "type"), "bad-message", "\"" + name + "\" is none of support, simplex, polytope, face, result");
+  return {};
+}
+
+void SolverRecorder::begin(const AnyVector& direction) {
+  if (began_) return;
+  began_ = true;
+  recording_.events.push_back(recorded::GjkBegan{direction});
+}
+
+std::string SolverRecorder::support(const Json& json) {
+  const Place root, at(root, "direction");
+  const auto found = json.find("direction");
+  if (found == json.end()) reject(at, "bad-message", "is missing");
+  const AnyVector d = loose_vector(*found, at, dimension_);
+  begin(d);
+  const AnyVector a = a_(d, true), b = b_(-d, true), w = a - b;
+  const int vertex = supports_++;
+  vertices_[vertex] = w;
+  int& iteration = gjk_ended_ ? epa_iteration_ : iteration_;
+  recording_.events.push_back(recorded::SupportQueried{iteration, gjk_ended_ ? Phase::epa : Phase::gjk, d, vertex, a, b, w});
+  if (!gjk_ended_) ++iteration_, pending_.insert(pending_.begin(), vertex);
+  else ++epa_iteration_;
+  std::string reply = "{\"type\":\"vertex\",\"vertex\":" + std::to_string(vertex);
+  for (const auto& [key, point] : {std::pair("w", &w), std::pair("a", &a), std::pair("b", &b)}) {
+    reply += std::string(",\"") + key + "\":";
+    append_vector(reply, *point);
+  }
+  return reply + "}";
+}
+
+std::vector<int> SolverRecorder::vertex_list(const Json& json, const Place& place) const {
+  if (!json.is_array() || json.empty()) reject(place, "bad-message", "must be a list of vertex numbers");
+  std::vector<int> list;
+  for (std::size_t i = 0; i < json.size(); ++i) list.push_back(read_integer(json[i], Place(place, i), 0, 1000000000));
+  return list;
+}
+
+void SolverRecorder::simplex(const Json& json) {
+  const Place root, at(root, "vertices");
+  if (!json.contains("vertices")) reject(at, "bad-message", "is missing");
+  recorded::SimplexReduced e;
+  e.region = vertex_list(json["vertices"], at);
+  begin(AnyVector::Zero(dimension_));
+  e.iteration = std::max(0, iteration_ - 1);
+  e.before = pending_;
+  for (const int v : simplex_)
+    if (std::find(e.before.begin(), e.before.end(), v) == e.before.end()) e.before.push_back(v);
+  if (const auto closest = json.find("closest"); closest != json.end() && !closest->is_null()) e.closest = loose_vector(*closest, Place(root, "closest"), dimension_);
+  if (e.closest.size() > 0 && !e.closest.allFinite()) e.closest = AnyVector();
+  if (const auto d = json.find("direction"); d != json.end() && !d->is_null()) loose_vector(*d, Place(root, "direction"), dimension_);
+  e.lower_bound = e.upper_bound = nan;
+  simplex_ = e.region;
+  pending_.clear();
+  if (!gjk_ended_) recording_.events.push_back(std::move(e));
+}
+
+void SolverRecorder::end_gjk(GjkStatus status) {
+  if (gjk_ended_) return;
+  begin(AnyVector::Zero(dimension_));
+  gjk_ended_ = true;
+  recording_.events.push_back(recorded::GjkEnded{std::max(0, iteration_ - 1), status, nan, nan});
+}
+
+/// A face's plane from its vertices; not turned yet.
+recorded::Face SolverRecorder::make_face(const std::vector<int>& vertices) {
+  recorded::Face face{next_face_++, vertices, AnyVector::Zero(dimension_), 0};
+  std::vector<AnyVector> w;
+  for (const int v : vertices)
+    if (const auto found = vertices_.find(v); found != vertices_.end()) w.push_back(found->second);
+  if (w.size() != vertices.size() || static_cast<int>(w.size()) != dimension_) return face;
+  if (dimension_ == 3) face.normal = Eigen::Vector3d(w[1] - w[0]).cross(Eigen::Vector3d(w[2] - w[0]));
+  else if (dimension_ == 2) face.normal = Eigen::Vector2d(w[1][1] - w[0][1], w[0][0] - w[1][0]);
+  else face.normal = AnyVector::Ones(1);
+  if (face.normal.norm() > 0) face.normal.stableNormalize();
+  face.distance = face.normal.dot(w[0]);
+  return face;
+}
+
+/// Outwards, seen from the middle of the vertices in use: a solver need not keep a winding.
+void SolverRecorder::orient(std::vector<recorded::Face>& faces) const {
+  std::set<int> used;
+  for (const auto& [key, face] : faces_) used.insert(key.begin(), key.end());
+  for (const auto& face : faces) used.insert(face.vertices.begin(), face.vertices.end());
+  AnyVector middle = AnyVector::Zero(dimension_);
+  int count = 0;
+  for (const int v : used)
+    if (const auto found = vertices_.find(v); found != vertices_.end()) middle += found->second, ++count;
+  if (count > 0) middle /= count;
+  for (auto& face : faces)
+    if (face.distance < face.normal.dot(middle)) face.normal = -face.normal, face.distance = -face.distance;
+}
+
+void SolverRecorder::polytope(const Json& json) {
+  const Place root, at(root, "faces");
+  if (!json.contains("faces") || !json["faces"].is_array() || json["faces"].empty()) reject(at, "bad-message", "must be a list of faces");
+  end_gjk(GjkStatus::enclosed);
+  std::set<std::set<int>> wanted;
+  std::vector<recorded::Face> added;
+  for (std::size_t i = 0; i < json["faces"].size(); ++i) {
+    const std::vector<int> vertices = vertex_list(json["faces"][i], Place(at, i));
+    const std::set<int> key(vertices.begin(), vertices.end());
+    if (!wanted.insert(key).second && epa_) continue;
+    if (!faces_.contains(key)) added.push_back(make_face(vertices));
+  }
+  grow(wanted, std::move(added));
+}
+
+/// The difference to the polytope before, as an event.
+void SolverRecorder::grow(const std::set<std::set<int>>& wanted, std::vector<recorded::Face> added) {
+  recorded::PolytopeGrown e;
+  std::map<std::array<int, 2>, int> rim;
+  for (auto it = faces_.begin(); it != faces_.end();) {
+    if (wanted.contains(it->first)) {
+      ++it;
+      continue;
+    }
+    e.removed.push_back(it->second.face);
+    const auto& v = it->second.vertices;
+    for (std::size_t i = 0; i < v.size() && dimension_ == 3; ++i) {
+      const int p = v[i], q = v[(i + 1) % v.size()];
+      ++rim[{std::min(p, q), std::max(p, q)}];
+    }
+    it = faces_.erase(it);
+  }
+  orient(added);
+  for (const auto& face : added) faces_[std::set<int>(face.vertices.begin(), face.vertices.end())] = face;
+  if (!epa_) {
+    epa_ = true;
+    std::set<int> used;
+    for (const auto& face : added) used.insert(face.vertices.begin(), face.vertices.end());
+    recording_.events.push_back(recorded::PolytopeSeeded{{used.begin(), used.end()}, std::move(added)});
+    return;
+  }
+  if (e.removed.empty() && added.empty()) return;
+  for (const auto& [edge, count] : rim)
+    if (count == 1) e.horizon.push_back(edge);
+  e.iteration = epa_iteration_;
+  e.vertex = std::max(0, supports_ - 1);
+  e.added = std::move(added);
+  e.lower_bound = e.upper_bound = nan;
+  recording_.events.push_back(std::move(e));
+}
+
+void SolverRecorder::face(const Json& json) {
+  const Place root, at(root, "vertices");
+  if (!json.contains("vertices")) reject(at, "bad-message", "is missing");
+  const std::vector<int> vertices = vertex_list(json["vertices"], at);
+  end_gjk(GjkStatus::enclosed);
+  const auto found = faces_.find(std::set<int>(vertices.begin(), vertices.end()));
+  recorded::Face face = found != faces_.end() ? found->second : make_face(vertices);
+  recorded::FaceChosen e{epa_iteration_, face.face, face.normal, face.distance};
+  if (const auto n = json.find("normal"); n != json.end() && !n->is_null()) {
+    const AnyVector normal = loose_vector(*n, Place(root, "normal"), dimension_);
+    if (normal.allFinite()) e.normal = normal;
+  }
+  if (const auto d = json.find("distance"); d != json.end() && d->is_number()) e.distance = read_number(*d, Place(root, "distance"));
+  chosen_ = face;
+  recording_.events.push_back(std::move(e));
+}
+
+void SolverRecorder::result(const Json& json) {
+  const Place root;
+  ObjectReader o(json, root);
+  o.optional("type");
+  Result& r = recording_.result;
+  r.intersecting = read_bool(o.required("intersecting"), o.at("intersecting"));
+  const auto given = [&](const char* key) -> const Json* {
+    const Json* value = o.optional(key);
+    return value && !value->is_null() ? value : nullptr;
+  };
+  if (const Json* x = given("signed_distance")) r.signed_distance = read_number(*x, o.at("signed_distance"));
+  if (const Json* x = given("normal")) r.normal = read_vector(*x, o.at("normal"), dimension_);
+  if (const Json* x = given("witness_a")) r.witness_a = read_vector(*x, o.at("witness_a"), dimension_);
+  if (const Json* x = given("witness_b")) r.witness_b = read_vector(*x, o.at("witness_b"), dimension_);
+  const bool measured = r.signed_distance && recording_.scene.scene.query != Query::intersect;
+  end_gjk(r.intersecting ? GjkStatus::enclosed : measured ? GjkStatus::converged : GjkStatus::separated);
+  r.status = "converged";
+  if (epa_ || chosen_) {
+    const AnyVector normal = r.normal ? *r.normal : chosen_ ? chosen_->normal : AnyVector(AnyVector::Zero(dimension_));
+    recording_.events.push_back(recorded::EpaEnded{epa_iteration_, EpaStatus::converged, chosen_ ? chosen_->face : -1, normal, r.signed_distance ? -*r.signed_distance : 0});
+  }
+  done_ = true;
+}
+
+void SolverRecorder::abort(const std::string& code, const std::string& message) {
+  if (began_ && !gjk_ended_) end_gjk(GjkStatus::aborted);
+  else if (epa_) recording_.events.push_back(recorded::EpaEnded{epa_iteration_, EpaStatus::aborted, -1, AnyVector::Zero(dimension_), 0});
+  recording_.events.push_back(recorded::Warning{code, message});
+  recording_.result = {};
+  recording_.result.status = "aborted";
+  done_ = true;
+}
+
+Recording SolverRecorder::finish() && {
+  recording_.result.iterations = iteration_ + epa_iteration_;
+  recording_.result.support_calls = supports_;
+  return std::move(recording_);
+}
+
+}  // namespace gjkdbg

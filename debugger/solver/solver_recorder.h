@@ -1,0 +1,53 @@
+// Turns a solver's messages into the events of a recording, and infers what it does not say: when GJK ends, which faces a polytope
+// lost and gained.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+
+#include "recordings/json_reading.h"
+#include "recordings/recording.h"
+#include "shapes/world_support.h"
+
+namespace gjkdbg {
+
+class SolverRecorder {
+ public:
+  SolverRecorder(const SceneFile& scene, const Settings& settings);
+
+  /// The first line the solver gets.
+  std::string scene_message() const;
+  /// Takes a message. Returns the reply, empty for none. Throws Error when the message is not one of the protocol.
+  std::string take(const std::string& line);
+  bool done() const { return done_; }
+  int supports() const { return supports_; }
+  /// Ends the recording without an answer.
+  void abort(const std::string& code, const std::string& message);
+  Recording finish() &&;
+
+ private:
+  std::string support(const Json& json);
+  void simplex(const Json& json);
+  void polytope(const Json& json);
+  void face(const Json& json);
+  void result(const Json& json);
+  void begin(const AnyVector& direction);
+  void end_gjk(GjkStatus status);
+  std::vector<int> vertex_list(const Json& json, const Place& place) const;
+  recorded::Face make_face(const std::vector<int>& vertices);
+  void orient(std::vector<recorded::Face>& faces) const;
+  void grow(const std::set<std::set<int>>& wanted, std::vector<recorded::Face> added);
+
+  Recording recording_;
+  WorldSupport a_, b_;
+  int dimension_;
+  int supports_ = 0, next_face_ = 0, iteration_ = 0, epa_iteration_ = 0;
+  bool began_ = false, gjk_ended_ = false, epa_ = false, done_ = false;
+  std::map<int, AnyVector> vertices_;
+  std::vector<int> simplex_, pending_;
+  std::map<std::set<int>, recorded::Face> faces_;
+  std::optional<recorded::Face> chosen_;
+};
+
+}  // namespace gjkdbg

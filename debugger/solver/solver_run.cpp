@@ -1,0 +1,64 @@
+#include "debugger/solver/solver_run.h"
+
+#include "debugger/solver/solver_process.h"
+#include "debugger/solver/solver_recorder.h"
+
+namespace gjkdbg {
+namespace {
+
+std::string shortened(const std::string& line) {
+  std::string out;
+  for (const char c : line.substr(0, 120)) out += c >= ' ' && c <= '~' ? c : '?';
+  return out + (line.size() > 120 ? "..." : "");
+}
+
+/// The program has closed its output: it ended, or soon will.
+void ended(SolverProcess& process, SolverRecorder& recorder, SolverProcess::Deadline deadline, const std::string& rest) {
+  const auto how = process.wait(std::min(deadline, std::chrono::steady_clock::now() + std::chrono::seconds(2)));
+  const std::string after = " after " + std::to_string(recorder.supports()) + " support queries";
+  if (how && !how->empty()) return recorder.abort("crash", "The solver ended with " + *how + after + ", before it gave a result. Its own error output says more.");
+  if (!rest.empty()) return recorder.abort("bad-message", "The solver ended in the middle of a line: " + shortened(rest));
+  recorder.abort("no-result", "The solver ended" + after + " without a \"result\" message. Print it last, and flush the output.");
+}
+
+void talk(SolverProcess& process, SolverRecorder& recorder, const SolverLimits& limits) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(limits.timeout));
+  const auto timed_out = [&] {
+    recorder.abort("timeout", "No result after " + std::to_string(limits.timeout) + " seconds and " + std::to_string(recorder.supports()) +
+                                  " support queries. The usual causes are a loop that never ends, and output that is not flushed after every line.");
+  };
+  using Outcome = SolverProcess::Outcome;
+  std::string line;
+  Outcome sent = process.write_line(recorder.scene_message(), deadline);
+  while (!recorder.done()) {
+    if (sent == Outcome::timeout) return timed_out();
+    const Outcome got = process.read_line(line, deadline);
+    if (got == Outcome::timeout) return timed_out();
+    if (got == Outcome::too_long) return recorder.abort("bad-message", "The solver sent more than a megabyte without the end of a line.");
+    if (got == Outcome::closed) return ended(process, recorder, deadline, line);
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    std::string reply;
+    try {
+      reply = recorder.take(line);
+    } catch (const Error& e) {
+      return recorder.abort("bad-message", "Not a message of the protocol (" + e.line() + "): " + shortened(line));
+    }
+    if (recorder.supports() > limits.max_supports)
+      return recorder.abort("support-limit", "More than " + std::to_string(limits.max_supports) + " support queries (--max-supports). The usual cause is a stopping test that never holds.");
+    if (!reply.empty()) sent = process.write_line(reply, deadline);
+  }
+  process.close_input();
+}
+
+}  // namespace
+
+Recording run_solver(const SceneFile& scene, const Settings& settings, const std::string& command, const SolverLimits& limits) {
+  for (const Body& body : scene.scene.bodies)
+    if (std::holds_alternative<Mesh>(body.shape.geometry)) throw Error("unsupported-shape", "a mesh has no support function; a solver runs on convex shapes", "/bodies");
+  SolverRecorder recorder(scene, settings);
+  SolverProcess process(command);
+  talk(process, recorder, limits);
+  return std::move(recorder).finish();
+}
+
+}  // namespace gjkdbg
