@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
   add_query(app, status);
   add_check(app, status);
   add_run(app, status);
+  add_sweep(app, status);
   add_scenes(app, status);
   try {
     app.parse(argc, argv);

@@ -84,6 +84,7 @@ class GjkCheck {
   std::size_t idle_step_ = 0;
   double best_plane_ = -1e300;
   std::map<std::string, std::size_t> regions_;
+  std::string last_region_;
   std::optional<std::size_t> repeated_from_, repeated_at_;
   std::map<std::string, std::vector<std::size_t>> directions_;
 };
@@ -105,6 +106,7 @@ class EpaCheck {
     bool usable = true;
   };
   void add(const recorded::Face& f);
+  bool supports(const recorded::Face& f, const std::vector<AnyVector>& w) const;
   void orient(const std::vector<recorded::Face>& added);
   void check_normal(int number, const AnyVector& given);
   void check_closed();

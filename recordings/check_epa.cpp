@@ -30,6 +30,17 @@ AnyVector EpaCheck::centre() {
   return count > 0 ? AnyVector(sum / count) : sum;
 }
 
+/// Whether the plane a face claims holds its vertices and has the whole polytope on one side.
+bool EpaCheck::supports(const recorded::Face& f, const std::vector<AnyVector>& w) const {
+  if (std::abs(f.normal.norm() - 1) > 1e-6 || std::set<int>(f.vertices.begin(), f.vertices.end()).size() != f.vertices.size()) return false;
+  for (const AnyVector& p : w)
+    if (std::abs(f.normal.dot(p) - f.distance) > 1e-9 * c_.size) return false;
+  for (const auto& [number, face] : faces_)
+    for (const int v : face.vertices)
+      if (const auto found = c_.vertices.find(v); found != c_.vertices.end() && f.normal.dot(found->second) - f.distance > 1e-9 * c_.size) return false;
+  return true;
+}
+
 void EpaCheck::add(const recorded::Face& f) {
   Face face;
   face.vertices = f.vertices;
@@ -42,7 +53,9 @@ void EpaCheck::add(const recorded::Face& f) {
     double longest = 0;
     for (const AnyVector& p : w) longest = std::max(longest, (p - w[0]).norm());
     const double area = face.normal.norm();
-    if (c_.dimension > 1 && area <= 1e-13 * (c_.dimension == 3 ? longest * longest : c_.size)) {
+    if (c_.dimension > 1 && area <= 1e-15 * (c_.dimension == 3 ? longest * longest : c_.size) && supports(f, w)) {
+      face.normal = f.normal, face.distance = f.distance;  // thin to rounding, with a right normal all the same
+    } else if (c_.dimension > 1 && area <= 1e-15 * (c_.dimension == 3 ? longest * longest : c_.size)) {
       c_.find("zero-area-face", "The face of vertices " + std::to_string(f.vertices[0]) + ", " + std::to_string(f.vertices[1]) + ", … has no area, so it has no normal. The usual cause is a new vertex in line with an edge of the horizon, or one "
                                 "that the polytope already had: stop, or remove the face behind that edge too.");
       face.usable = false;
@@ -67,7 +80,7 @@ void EpaCheck::orient(const std::vector<recorded::Face>& added) {
 
 void EpaCheck::check_normal(int number, const AnyVector& given) {
   const AnyVector& right = faces_[number].normal;
-  if (right.dot(given) < -1e-6 * given.norm())
+  if (right.dot(given) < -0.9 * given.norm())
     c_.find("flipped-face-normal", "The normal " + text_of(given) + " of " + face_name(number) + " points into the polytope; expected is " + text_of(right) +
                                        ". The usual cause is a winding that was not kept: turn the normal so that it looks away from a point inside.");
 }

@@ -147,7 +147,13 @@ void GjkCheck::check_cycle(const std::vector<int>& region) {
   for (const std::string& k : keys) key += k;
   const auto [found, is_new] = regions_.try_emplace(key, c_.step);
   repeated_from_.reset(), repeated_at_.reset();
-  if (!is_new && !pending_.empty()) repeated_from_ = found->second, repeated_at_ = c_.step, idle_query_ = true;
+  const bool other_between = last_region_ != key;
+  last_region_ = key;
+  if (is_new || pending_.empty() || nearest_point(points(region)).v.norm() <= c_.tolerance) return;
+  if (other_between)
+    c_.find("cycle", "The simplex " + list_of(region) + " is that of step " + std::to_string(found->second) + " again: from here on everything repeats, and the search will never end. |v| must fall in every step; the usual cause is a region test that drops a vertex the nearest part needs.");
+  else
+    repeated_from_ = found->second, repeated_at_ = c_.step, idle_query_ = true;
 }
 
 void GjkCheck::operator()(const recorded::SimplexReduced& e) {

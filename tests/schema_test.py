@@ -5,6 +5,7 @@ import json
 import pathlib
 import subprocess
 import sys
+import tempfile
 import unittest
 
 from jsonschema import Draft7Validator
@@ -44,6 +45,21 @@ class Schemas(unittest.TestCase):
         for path in sorted((ROOT / "recordings/gallery").glob("*.scene.json")):
             run = subprocess.run([PROGRAM, "dump", str(path)], capture_output=True, text=True, check=True)
             self.check("recording", json.loads(run.stdout), path.name)
+
+    def test_findings_and_solver_messages(self):
+        for scene in ("box-box-deep", "box-box-apart"):
+            kit = ROOT / "debugger/solver/kits/gjk.py"
+            # A solver that says everything twice: to us, and to a file.
+            with tempfile.TemporaryDirectory() as folder:
+                source = kit.read_text().replace("    print(json.dumps(message), flush=True)",
+                                                 f"    print(json.dumps(message), flush=True)\n    print(json.dumps(message), file=open('{folder}/said', 'a'))")
+                pathlib.Path(folder, "kit.py").write_text(source.replace("support(scaled(-1, v))", "support(v)") if scene == "box-box-apart" else source)
+                run = subprocess.run([PROGRAM, "run", scene, "--exec", f"/usr/bin/python3 {folder}/kit.py", "--json"], capture_output=True, text=True)
+                findings = json.loads(run.stdout)
+                self.check("findings", findings, scene)
+                self.assertEqual(bool(findings["findings"]), scene == "box-box-apart")
+                for line in pathlib.Path(folder, "said").read_text().splitlines():
+                    self.check("solver-message", json.loads(line), line)
 
     def test_wrong_files_do_not_validate(self):
         good = load(ROOT / "recordings/golden/2d-deep.recording.json")

@@ -1,0 +1,175 @@
+// sweep: the gallery and random scenes through another implementation; what fails, and how, and the simplest scene that fails alike.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "algo/solve.h"
+#include "debugger/commands/commands.h"
+#include "debugger/commands/input.h"
+#include "debugger/commands/output_file.h"
+#include "debugger/solver/solver_run.h"
+#include "recordings/check.h"
+#include "recordings/json_writing.h"
+
+namespace gjkdbg {
+namespace {
+
+/// Random pairs of convex polytopes and round shapes, some touching, some deep.
+class RandomPairs {
+ public:
+  RandomPairs(unsigned seed, int dimension) : random_(seed), dimension_(dimension) {}
+
+  SceneFile next(int number) {
+    SceneFile file;
+    file.scene.name = "random-" + std::to_string(number);
+    file.scene.dimension = dimension_ > 0 ? dimension_ : 2 + number % 2;
+    for (const char* name : {"A", "B"}) {
+      Body body{name, shape(file.scene.dimension), identity_pose(file.scene.dimension)};
+      for (double& x : body.pose.position) x = rounded(uniform(-1.5, 1.5));
+      file.scene.bodies.push_back(body);
+    }
+    return file;
+  }
+
+ private:
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  /// Short numbers: easy to read, and ties are common.
+  static double rounded(double x) { return std::nearbyint(x * 8) / 8; }
+  Shape shape(int dimension) {
+    const int kind = std::uniform_int_distribution<int>(0, 3)(random_);
+    if (kind == 0) {
+      AnyVector half(dimension);
+      for (double& x : half) x = rounded(uniform(0.2, 1)) + 0.125;
+      return {Box{-half, half, true}, 0};
+    }
+    if (kind == 1 && dimension > 1) return {Capsule{0.25, rounded(uniform(0.2, 1)), 0}, 0};
+    if (dimension == 1) return {Box{AnyVector::Constant(1, -0.5), AnyVector::Constant(1, 0.5), false}, 0};
+    PointSet set;
+    set.kind = dimension == 2 ? PointSetKind::polygon : PointSetKind::hull;
+    for (int i = 0; i < 4 + kind * 2; ++i) {
+      AnyVector p(dimension);
+      for (double& x : p) x = rounded(uniform(-1, 1));
+      set.points.push_back(p);
+    }
+    return {set, 0};
+  }
+  std::mt19937 random_;
+  int dimension_;
+};
+
+struct Sweep {
+  std::string command, output;
+  int random = 100, dimension = 0;
+  unsigned seed = 1;
+  SolverLimits limits;
+
+  int run() const {
+    int passed = 0, failed = 0;
+    std::map<std::string, int> codes;
+    const auto one = [&](const SceneFile& scene) {
+      if (!suits(scene)) return;
+      const auto code = failure(scene);
+      code ? ++failed : ++passed;
+      if (!code) return;
+      ++codes[*code];
+      std::cout << std::left << std::setw(36) << scene.scene.name << " " << *code;
+      if (!output.empty()) std::cout << "  " << save(scene, *code);
+      std::cout << std::endl;
+    };
+    const Gallery gallery = read_gallery(gallery_directory());
+    for (const Lesson& lesson : gallery.lessons)
+      for (const std::string& name : lesson.scenes) one(read_scene(gallery.file(name)));
+    RandomPairs pairs(seed, dimension);
+    for (int i = 0; i < random; ++i) one(pairs.next(i));
+    std::cout << "\n" << passed << " scenes clean, " << failed << " not\n";
+    for (const auto& [code, count] : codes) std::cout << "  " << std::setw(30) << code << " " << count << "\n";
+    return failed > 0 ? exit_difference : exit_done;
+  }
+
+ private:
+  bool suits(const SceneFile& scene) const {
+    if (dimension > 0 && scene.scene.dimension != dimension) return false;
+    for (const Body& body : scene.scene.bodies)
+      if (std::holds_alternative<Mesh>(body.shape.geometry)) return false;
+    return true;
+  }
+
+  /// The code of the first finding, if any.
+  std::optional<std::string> failure(SceneFile scene) const {
+    scene.method.name = MethodName::gjk;
+    const auto findings = check(run_solver(scene, resolve_settings(scene.method, scene.scene), command, limits));
+    if (findings.empty()) return std::nullopt;
+    return findings.front().code;
+  }
+
+  /// Writes the failing scene, shrunk: as long as the first finding stays the same, corners go and numbers lose digits.
+  std::string save(SceneFile scene, const std::string& code) const {
+    scene.expect.reset();
+    for (int tries = 60; tries > 0;) {
+      bool smaller = false;
+      for (const SceneFile& next : simpler(scene)) {
+        if (--tries < 0) break;
+        try {
+          for (const Body& body : next.scene.bodies) validate(body.shape, next.scene.dimension);
+          if (failure(next) != code) continue;
+        } catch (const Error&) {
+          continue;
+        }
+        scene = next;
+        smaller = true;
+        break;
+      }
+      if (!smaller) break;
+    }
+    std::filesystem::create_directories(output);
+    const std::string file = (std::filesystem::path(output) / (scene.scene.name + ".scene.json")).string();
+    write_output(file, pretty_json(scene_to_json(scene)) + "\n");
+    return file;
+  }
+
+  static std::vector<SceneFile> simpler(const SceneFile& scene) {
+    std::vector<SceneFile> out;
+    for (std::size_t b = 0; b < 2; ++b) {
+      const Body& body = scene.scene.bodies[b];
+      if (const auto* set = std::get_if<PointSet>(&body.shape.geometry); set && set->points.size() > 1 && set->kind >= PointSetKind::polygon)
+        for (std::size_t i = 0; i < set->points.size(); ++i) {
+          out.push_back(scene);
+          auto& points = std::get<PointSet>(out.back().scene.bodies[b].shape.geometry).points;
+          points.erase(points.begin() + static_cast<std::ptrdiff_t>(i));
+        }
+      if (!body.pose.matrix.isIdentity(0)) {
+        out.push_back(scene);
+        Pose straight = identity_pose(scene.scene.dimension);
+        straight.position = body.pose.position;
+        out.back().scene.bodies[b].pose = straight;
+      }
+      const AnyVector rounded = body.pose.position.array().round();
+      if (rounded != body.pose.position) {
+        out.push_back(scene);
+        out.back().scene.bodies[b].pose.position = rounded;
+      }
+    }
+    return out;
+  }
+};
+
+}  // namespace
+
+void add_sweep(CLI::App& app, Status& status) {
+  auto options = std::make_shared<Sweep>();
+  CLI::App* command = app.add_subcommand("sweep", "The gallery and random scenes through your own GJK");
+  command->add_option("--exec", options->command, "the program, as a shell would start it")->required();
+  command->add_option("--random", options->random, "how many random scenes (100)")->check(CLI::Range(0, 1000000));
+  command->add_option("--dimension", options->dimension, "only scenes of this dimension")->check(CLI::Range(1, 3));
+  command->add_option("--seed", options->seed, "of the random scenes (1)");
+  command->add_option("-o,--output", options->output, "folder for the scenes that fail, shrunk");
+  command->add_option("--max-supports,--max_supports", options->limits.max_supports, "support queries a scene (1000)")->check(CLI::Range(1, 10000000));
+  command->add_option("--timeout", options->limits.timeout, "seconds a scene (10)")->check(CLI::Range(0.01, 86400.0));
+  command->callback([options, &status] { status = options->run(); });
+}
+
+}  // namespace gjkdbg

@@ -1,0 +1,47 @@
+// A right implementation has no findings, whatever it is asked.
+#include "recordings/check.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "recordings/gallery.h"
+#include "tests/support/random_scenes.h"
+
+namespace gjkdbg {
+namespace {
+
+std::string text(const std::vector<Finding>& findings) {
+  std::string out;
+  for (const Finding& f : findings) out += std::to_string(f.step) + " " + f.code + ": " + f.message + "\n";
+  return out;
+}
+
+TEST(Check, OurOwnRecordingsOfTheGalleryAreClean) {
+  const Gallery gallery = read_gallery(GJKDBG_GALLERY);
+  for (const Lesson& lesson : gallery.lessons)
+    for (const std::string& name : lesson.scenes)
+      for (const Scalar scalar : {Scalar::double_precision, Scalar::float_precision})
+        for (const bool boolean : {false, true}) {
+          SceneFile scene = read_scene(gallery.file(name));
+          scene.method.scalar = scalar;
+          if (boolean) scene.method.name = MethodName::gjk_boolean, scene.scene.query = Query::intersect;
+          EXPECT_EQ(text(check(record(scene))), "") << name << (boolean ? " boolean" : "") << (scalar == Scalar::double_precision ? "" : " float");
+        }
+}
+
+TEST(Check, OurOwnRecordingsOfRandomScenesAreClean) {
+  RandomScenes random(21);
+  const int count = std::getenv("GJKDBG_PAIRS") ? 200 : 2000;
+  for (int k = 0; k < count; ++k) {
+    SceneFile file;
+    file.scene = random.scene(1 + k % 3, static_cast<Family>(k / 3 % family_count), k % 2 == 0);
+    file.scene.query = static_cast<Query>(k % 4);
+    if (file.scene.query == Query::intersect && k % 8 < 4) file.method.name = MethodName::gjk_boolean;
+    EXPECT_EQ(text(check(record(file))), "") << "scene " << k;
+    if (testing::Test::HasFailure()) break;
+  }
+}
+
+}  // namespace
+}  // namespace gjkdbg
