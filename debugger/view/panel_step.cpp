@@ -130,11 +130,37 @@ void answer(App& app) {
   number_row(theme, "support calls", std::to_string(r.support_calls), theme.palette.text_soft);
 }
 
+/// What is wrong with the recording: a click goes to the step; at the step, the whole message.
+void findings(App& app) {
+  Session& s = app.session;
+  const Theme& theme = app.theme;
+  if (s.findings().empty()) return;
+  section(theme, "FINDINGS");
+  for (const Finding& f : s.findings()) {
+    const bool here = f.step == s.step();
+    ImGui::PushStyleColor(ImGuiCol_Text, vec(f.severity == Finding::Severity::error ? theme.palette.newest : theme.palette.frontier));
+    if (ImGui::Selectable(("step " + std::to_string(f.step) + "  " + f.code).c_str(), here)) s.go_to(f.step);
+    ImGui::PopStyleColor();
+    if (ImGui::IsItemHovered() && !here) {
+      ImGui::BeginTooltip();
+      ImGui::PushTextWrapPos(theme.px(420));
+      ImGui::TextUnformatted(f.message.c_str());
+      ImGui::PopTextWrapPos();
+      ImGui::EndTooltip();
+    }
+    if (!here) continue;
+    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
+    ImGui::TextWrapped("%s", f.message.c_str());
+    ImGui::PopStyleColor();
+  }
+}
+
 }  // namespace
 
 void step_panel(App& app, const Area& area) {
   if (!begin_area("step", area, true)) return ImGui::EndChild();
   heading(app);
+  findings(app);
   weights(app);
   faces(app);
   bounds(app);

@@ -99,6 +99,11 @@ void scrubber(App& app) {
     const float x = at.x + (static_cast<float>(i) + 0.5f) * cell;
     draw->AddRectFilled({x - tick / 2, at.y + theme.px(19)}, {x + tick / 2, at.y + size.y - theme.px(6)}, packed(event_colour(p, s.recording().events[i])), 1);
   }
+  for (const Finding& f : s.findings()) {
+    const float x = at.x + (static_cast<float>(f.step) + 0.5f) * cell, r = theme.px(5);
+    draw->AddTriangleFilled({x - r, at.y + theme.px(2)}, {x + r, at.y + theme.px(2)}, {x, at.y + theme.px(2) + 1.6f * r}, packed(p.newest));
+    draw->AddLine({x, at.y}, {x, at.y + size.y}, packed(p.newest), theme.px(1.5f));
+  }
   for (const std::size_t b : s.breakpoints) {
     const float x = at.x + (static_cast<float>(b) + 0.5f) * cell;
     draw->AddCircleFilled({x, at.y + size.y - theme.px(3)}, theme.px(3), packed(p.newest));
@@ -116,7 +121,7 @@ void legend(App& app) {
   const Theme& theme = app.theme;
   const Palette& p = theme.palette;
   ImGui::PushFont(theme.small);
-  const std::pair<const char*, Colour> entries[] = {{"support", p.support}, {"simplex", p.simplex}, {"face chosen", p.chosen}, {"polytope", p.frontier}, {"begin, end", p.text}, {"warning", p.newest}};
+  const std::pair<const char*, Colour> entries[] = {{"support", p.support}, {"simplex", p.simplex}, {"face chosen", p.chosen}, {"polytope", p.frontier}, {"begin, end", p.text}, {"warning, finding", p.newest}};
   for (const auto& [name, colour] : entries) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + theme.px(4)}, {at.x + theme.px(9), at.y + theme.px(13)}, packed(colour), 2);

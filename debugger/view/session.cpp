@@ -58,7 +58,10 @@ void Session::open(Recording recording, std::string title) {
 
 void Session::take(Recording recording) {
   SceneMeshes meshes = scene_meshes(recording.scene.scene);
+  // Our own recordings are clean (tested), and checking each would make dragging slow.
+  std::vector<Finding> findings = recording.generator == generator_name() ? std::vector<Finding>() : check(recording);
   replay_.reset();
+  findings_ = std::move(findings);
   recording_ = std::move(recording);
   meshes_ = std::move(meshes);
   replay_.emplace(recording_);

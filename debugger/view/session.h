@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "debugger/render/step_pictures.h"
+#include "recordings/check.h"
 #include "recordings/replay.h"
 
 namespace gjkdbg {
@@ -26,6 +27,8 @@ class Session {
   const Recording& recording() const { return recording_; }
   const Frame& frame() { return replay_->at(step_); }
   const SceneMeshes& meshes() const { return meshes_; }
+  /// What `check` finds in the recording, first wrong step first.
+  const std::vector<Finding>& findings() const { return findings_; }
   /// Counts what was opened or edited; cameras are fitted anew when `opened` changes.
   int opened() const { return opened_; }
 
@@ -68,6 +71,7 @@ class Session {
   Recording recording_;
   std::optional<Replay> replay_;
   SceneMeshes meshes_;
+  std::vector<Finding> findings_;
   std::size_t step_ = 0;
   double waited_ = 0;
   int opened_ = 0;
