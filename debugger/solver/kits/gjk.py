@@ -12,10 +12,8 @@ from itertools import combinations
 
 # --- The protocol: one JSON message a line ---------------------------------------------------------------------
 
-
 def say(**message):
     print(json.dumps(message), flush=True)
-
 
 class Vertex:
     """A support point: `number` is its name in messages."""
@@ -23,42 +21,32 @@ class Vertex:
     def __init__(self, reply):
         self.number, self.w, self.a, self.b = reply["vertex"], reply["w"], reply["a"], reply["b"]
 
-
 def support(d):
     say(type="support", direction=d)
     return Vertex(json.loads(sys.stdin.readline()))
 
-
 # --- Vectors ------------------------------------------------------------------------------------------------------
-
 
 def dot(x, y):
     return sum(p * q for p, q in zip(x, y))
 
-
 def minus(x, y):
     return [p - q for p, q in zip(x, y)]
-
 
 def scaled(s, x):
     return [s * p for p in x]
 
-
 def length(x):
     return dot(x, x) ** 0.5
 
-
 def combine(weights, points):
     return [sum(t * p[i] for t, p in zip(weights, points)) for i in range(len(points[0]))]
-
 
 def across(e, like):
     """`like` without its part along the unit vector e."""
     return minus(like, scaled(dot(e, like), e))
 
-
 # --- GJK: the nearest part of a simplex --------------------------------------------------------------------------
-
 
 def affine_weights(points):
     """Weights of the point nearest the origin in the flat through the points, or None when they do not span it.
@@ -78,7 +66,6 @@ def affine_weights(points):
     t = [rows[i][n] / rows[i][i] for i in range(n)]
     return [1 - sum(t)] + t
 
-
 def nearest(simplex):
     """The part of the simplex nearest the origin: (its vertices, its nearest point). Tries every part; slow, and never wrong."""
     best = None
@@ -91,7 +78,6 @@ def nearest(simplex):
             if best is None or dot(v, v) < best[2]:
                 best = (list(part), v, dot(v, v), weights)
     return best[0], best[1], best[3]
-
 
 def gjk(dimension, tolerance):
     """(vertices, v, weights): |v| is the distance; v = 0 when they overlap."""
@@ -111,9 +97,7 @@ def gjk(dimension, tolerance):
             return simplex, v, weights  # rounding: no nearer part can be told
         simplex, v, weights = kept, nearer, weights_now
 
-
 # --- EPA -----------------------------------------------------------------------------------------------------------
-
 
 def complete(simplex, dimension):
     """Vertices until they span the space; (vertices, None), or (vertices, normal) when A - B is flat across `normal`."""
@@ -144,7 +128,6 @@ def complete(simplex, dimension):
         points.append(best)
     return points, None
 
-
 def plane(vertices, inside):
     """Unit normal away from `inside`, and distance from the origin."""
     p = [x.w for x in vertices]
@@ -159,13 +142,11 @@ def plane(vertices, inside):
     n = scaled((1 if dot(n, minus(p[0], inside)) > 0 else -1) / size, n)
     return n, dot(n, p[0])
 
-
 def epa(simplex, dimension, tolerance):
     """(depth, normal, point a, point b)."""
     points, flat = complete(simplex, dimension)
     if flat:
-        _, _, weights = nearest(simplex)
-        kept = nearest(simplex)[0]
+        kept, _, weights = nearest(simplex)
         return 0.0, flat, combine(weights, [x.a for x in kept]), combine(weights, [x.b for x in kept])
     rounding = 1e-14 * max(length(x.w) for x in points)
     inside = combine([1 / len(points)] * len(points), [x.w for x in points])
@@ -188,23 +169,16 @@ def epa(simplex, dimension, tolerance):
         if None in planes:
             break
         faces = [f for f in faces if f not in seen] + [(f,) + p for f, p in zip(new, planes)]
-    # The nearest point of the face is the origin's projection: its weights give the points on the bodies.
-    shifted = [minus(x.w, scaled(distance, normal)) for x in face]
-    best = min((f for f in faces if f[2] <= distance + 1e-9 * abs(height)), key=lambda f: length(foot(f[0], normal, distance)[0]), default=None)
-    _, weights = foot(best[0], normal, distance) if best else (shifted, [1 / len(face)] * len(face))
-    face = best[0] if best else face
-    return height, normal, combine(weights, [x.a for x in face]), combine(weights, [x.b for x in face])
-
+    # The origin's projection on the plane, as a combination of the corners of the face that holds it.
+    candidates = [foot(f[0], normal, distance) for f in faces if f[2] <= distance + 1e-9 * height]
+    _, kept, weights = min(candidates, key=lambda c: c[0])
+    return height, normal, combine(weights, [x.a for x in kept]), combine(weights, [x.b for x in kept])
 
 def foot(face, normal, distance):
-    """What is missing from the face's nearest point to the projection of the origin, and that point's weights."""
-    class Shifted:
-        def __init__(self, x):
-            self.x, self.w = x, minus(x.w, scaled(distance, normal))
-    kept, v, weights = nearest([Shifted(x) for x in face])
-    full = {k.x.number: t for k, t in zip(kept, weights)}
-    return v, [full.get(x.number, 0.0) for x in face]
-
+    """How far the face is from the projection of the origin on its plane, and the corners and weights of its nearest point."""
+    moved = [Vertex(dict(vertex=i, w=minus(x.w, scaled(distance, normal)), a=x.a, b=x.b)) for i, x in enumerate(face)]
+    kept, v, weights = nearest(moved)
+    return length(v), kept, weights
 
 def solve(dimension, query, tolerance):
     simplex, v, weights = gjk(dimension, max(tolerance, 1e-12))
@@ -220,8 +194,6 @@ def solve(dimension, query, tolerance):
     middle = combine([0.5, 0.5], [a, b])
     return dict(intersecting=True, signed_distance=-depth, normal=normal, witness_a=combine([1, depth / 2], [middle, normal]),
                 witness_b=combine([1, -depth / 2], [middle, normal]))
-
-
 if __name__ == "__main__":
     scene = json.loads(sys.stdin.readline())
     say(type="result", **solve(scene["dimension"], scene["query"], scene["tolerance"]))
