@@ -2,11 +2,13 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <memory>
+#include <sstream>
 
 #include "debugger/commands/commands.h"
 #include "debugger/commands/input.h"
 #include "debugger/commands/output_file.h"
 #include "debugger/render/image_file.h"
+#include "debugger/solver/solver_run.h"
 #include "debugger/view/explain.h"
 #include "debugger/view/hosts.h"
 #include "recordings/json_writing.h"
@@ -27,13 +29,50 @@ std::string save(const App& app, const std::string& file) {
   }
 }
 
+/// A solver's files: those its command names. A new run is due when one of them has changed.
+class SolverWatch {
+ public:
+  SolverWatch(SceneFile scene, std::string command) : scene_(std::move(scene)), command_(std::move(command)) {
+    std::istringstream words(command_);
+    for (std::string word; words >> word;)
+      if (std::error_code ignored; std::filesystem::is_regular_file(word, ignored)) files_.push_back(word);
+  }
+
+  std::optional<Recording> operator()(std::string& message) {
+    std::vector<std::filesystem::file_time_type> times;
+    for (const auto& file : files_)
+      if (std::error_code missing; !std::filesystem::exists(file, missing)) return std::nullopt;  // being saved
+      else times.push_back(std::filesystem::last_write_time(file, missing));
+    if (ran_ && times == times_) return std::nullopt;
+    ran_ = true, times_ = times;
+    try {
+      return run_solver(scene_, resolve_settings(scene_.method, scene_.scene), command_, {});
+    } catch (const Error& e) {
+      message = e.line();
+      return std::nullopt;
+    }
+  }
+
+ private:
+  SceneFile scene_;
+  std::string command_;
+  std::vector<std::filesystem::path> files_;
+  std::vector<std::filesystem::file_time_type> times_;
+  bool ran_ = false;
+};
+
 struct View {
-  std::string file;
+  std::string file, command;
   WindowOptions options;
 
   int run() {
     if (!file.empty()) options.file = scene_path(file);
     options.save = save;
+    if (!command.empty()) {
+      SceneFile scene = read_scene(options.file.empty() ? gallery_directory() / (options.scene + ".scene.json") : options.file);
+      scene.method.name = MethodName::gjk;
+      options.refresh = SolverWatch(std::move(scene), command);
+    }
     run_window(options, read_gallery(gallery_directory()));
     return exit_done;
   }
@@ -133,6 +172,7 @@ void add_view(CLI::App& app, Status& status) {
   auto view = std::make_shared<View>();
   CLI::App* command = app.add_subcommand("view", "The window; the gallery when no file is named");
   command->add_option("FILE", view->file, "scene or recording, or the name of a gallery scene");
+  command->add_option("--exec", view->command, "show this solver's run on the scene, and again whenever its file changes");
   command->add_option("--scale", view->options.scale, "size of everything; the monitor's unless given")->check(CLI::Range(0.5, 4.0));
   command->add_option("--width", view->options.width, "of the window")->check(CLI::Range(320, 16384));
   command->add_option("--height", view->options.height, "of the window")->check(CLI::Range(240, 16384));

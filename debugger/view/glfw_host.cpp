@@ -67,6 +67,18 @@ void open_dropped(GLFWwindow* window, int count, const char** files) {
   if (count > 0) static_cast<App*>(glfwGetWindowUserPointer(window))->open(files[0]);
 }
 
+/// Shows a solver's new run at the step where the old one was.
+void refresh(App& app, const WindowOptions& options) {
+  std::string message;
+  if (auto recording = options.refresh(message)) {
+    const std::size_t step = app.session.is_open() ? app.session.step() : 0;
+    const std::string title = app.session.title();
+    app.session.open(std::move(*recording), title);
+    app.session.go_to(step);
+  }
+  if (!message.empty()) app.message = message;
+}
+
 /// Draws while something changes; otherwise sleeps until there is input. A few frames follow every input, for what takes ImGui
 /// more than one to settle.
 void loop(GLFWwindow* window, App& app, const WindowOptions& options) {
@@ -75,7 +87,9 @@ void loop(GLFWwindow* window, App& app, const WindowOptions& options) {
   while (!glfwWindowShouldClose(window)) {
     if (app.moving()) glfwPollEvents();
     else if (frames_left > 0) glfwPollEvents(), --frames_left;
+    else if (options.refresh) glfwWaitEventsTimeout(0.33), frames_left = 1;
     else glfwWaitEvents(), frames_left = 3;
+    if (options.refresh) refresh(app, options);
     draw(window, app);
     if (!app.save_requested.empty() && options.save) {
       app.message = options.save(app, app.save_requested);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct WindowOptions {
   std::filesystem::path file;
   std::string scene = "box-box-deep";  ///< of the gallery, when no file is named
   Save save;
+  /// Asked every third of a second: a recording to show instead, when there is a new one. What is wrong goes into the string.
+  std::function<std::optional<Recording>(std::string& message)> refresh;
 };
 
 /// Opens the window and runs until it is closed. Throws Error when there is no display or no OpenGL 3.3.

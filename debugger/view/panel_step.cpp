@@ -4,6 +4,7 @@
 
 #include "debugger/view/app.h"
 #include "debugger/view/explain.h"
+#include "debugger/view/right_step.h"
 
 namespace gjkdbg {
 namespace {
@@ -155,11 +156,22 @@ void findings(App& app) {
   }
 }
 
+/// Beside a foreign run: what a right implementation would have done.
+void right_implementation(App& app) {
+  const std::string text = right_step(app.session.recording(), app.session.frame());
+  if (text.empty()) return;
+  section(app.theme, "A RIGHT IMPLEMENTATION, FROM HERE");
+  ImGui::PushStyleColor(ImGuiCol_Text, vec(app.theme.palette.support));
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+}
+
 }  // namespace
 
 void step_panel(App& app, const Area& area) {
   if (!begin_area("step", area, true)) return ImGui::EndChild();
   heading(app);
+  right_implementation(app);
   findings(app);
   weights(app);
   faces(app);

@@ -1,0 +1,64 @@
+#include "debugger/view/right_step.h"
+
+#include "debugger/view/explain.h"
+#include "recordings/check_context.h"
+
+namespace gjkdbg {
+namespace {
+
+struct RightStep {
+  const Frame& frame;
+
+  /// The nearest part of the vertices in a list, or nothing when one is not known.
+  std::optional<NearestPoint> nearest(const std::vector<int>& numbers) const {
+    std::vector<AnyVector> points;
+    for (const int n : numbers) {
+      const auto found = frame.vertices.find(n);
+      if (found == frame.vertices.end()) return std::nullopt;
+      points.push_back(found->second.w);
+    }
+    if (points.empty() || points.size() > 6) return std::nullopt;
+    return nearest_point(points);
+  }
+
+  std::string operator()(const recorded::SupportQueried& e) const {
+    if (e.phase != Phase::gjk || frame.simplex.size() < 2) return {};
+    const auto best = nearest({frame.simplex.begin() + 1, frame.simplex.end()});
+    if (!best || best->v.isZero(0)) return {};
+    return "From the simplex it had, search along -v = " + short_vector(-best->v) + ", or a multiple of it.";
+  }
+
+  std::string operator()(const recorded::SimplexReduced& e) const {
+    std::vector<int> had = frame.simplex;
+    had.insert(had.end(), frame.dropped.begin(), frame.dropped.end());
+    const auto best = nearest(had);
+    if (!best) return {};
+    std::string kept;
+    for (const int i : best->subset) kept += " #" + std::to_string(had[static_cast<std::size_t>(i)]);
+    if (best->v.norm() == 0) return "Keep" + kept + ": the origin lies in it, so the bodies overlap.";
+    const std::string same = best->subset.size() == e.region.size() ? "Keep" : "Keep only";
+    return same + kept + ": |v| = " + short_number(best->v.norm()) + ", v = " + short_vector(best->v) + ". Then search along -v.";
+  }
+
+  std::string operator()(const recorded::FaceChosen&) const {
+    const FrameFace* best = nullptr;
+    for (const auto& [number, face] : frame.faces)
+      if (!best || face.distance < best->distance) best = &face;
+    if (!best) return {};
+    return "Choose face #" + std::to_string(best->face) + ", the nearest, at " + short_number(best->distance) + ", and ask along " + short_vector(best->normal) + ".";
+  }
+
+  template <class Other>
+  std::string operator()(const Other&) const {
+    return {};
+  }
+};
+
+}  // namespace
+
+std::string right_step(const Recording& recording, const Frame& frame) {
+  if (recording.generator == generator_name()) return {};
+  return std::visit(RightStep{frame}, recording.events[frame.step]);
+}
+
+}  // namespace gjkdbg
