@@ -7,6 +7,7 @@
 //   stop when the bounds meet; else add w, cut the simplex down to the feature nearest the origin
 // Deviations: |v| must fall in every step; where it does not, the simplex is judged again in twice the precision and,
 // if that does not help, the loop ends as `stalled` with honest bounds. Bounds include the rounding floor.
+// Directions may carry Nesterov's momentum (Montaut et al., section IV): fewer steps where curvature is small.
 // The sub-algorithm is a policy: ClosestFeature<D, S> closest(const V* w, int size).
 #pragma once
 
@@ -31,6 +32,8 @@ struct GjkOptions {
   S tolerance = S(1e-12);  ///< relative gap of the bounds at which the loop ends
   int max_iterations = 512;
   Vector<D, S> direction = Vector<D, S>::Unit(0);  ///< first search direction, not zero
+  bool accelerated = false;  ///< Nesterov momentum on the directions, until it no longer helps
+  bool normalised = false;   ///< of the momentum: for polytopes
 };
 
 template <int D, class S>
@@ -64,9 +67,18 @@ class Gjk {
     reduce();
     while (!ended()) {
       ++result_.iterations;
-      const V d = -result_.v;
-      const Point point = query(d, result_.distance);
-      if (proven(point)) break;
+      const V d = accelerating_ ? accelerated_direction() : V(-result_.v);
+      const Point point = query(d, accelerating_ ? d.norm() : result_.distance);
+      if (accelerating_) {
+        if (options_.goal == GjkGoal::intersect && result_.lower_bound > difference_.radius()) return finish(GjkStatus::separated);
+        if (brings_nothing(point)) {
+          accelerating_ = false;
+          continue;
+        }
+      } else if (proven(point)) {
+        break;
+      }
+      last_ = point.w;
       result_.simplex.add(point);
       if (!reduce() && !reduce_again()) return finish(GjkStatus::stalled);
     }
@@ -85,7 +97,26 @@ class Gjk {
     return point;
   }
 
-  void add(const V& d, S length) { result_.simplex.add(query(d, length)); }
+  void add(const V& d, S length) {
+    const Point point = query(d, length);
+    last_ = point.w, momentum_ = -d / length * point.w.norm();
+    result_.simplex.add(point);
+  }
+
+  /// Montaut et al. 2024, algorithm 3: with m = (k + 1) / (k + 3), y = m v + (1 - m) s (s the last support), the direction moves to
+  /// m d + (1 - m) y. For polytopes v and d enter with length 1, or the momentum of the far start outlives its use.
+  V accelerated_direction() {
+    const S m = static_cast<S>(result_.iterations + 1) / static_cast<S>(result_.iterations + 3);
+    const V y = options_.normalised ? V(m * result_.v / result_.distance + (1 - m) * momentum_.stableNormalized()) : V(m * result_.v + (1 - m) * last_);
+    momentum_ = m * momentum_ + (1 - m) * y;
+    if (momentum_.isZero(0)) accelerating_ = false, momentum_ = result_.v;
+    return -momentum_;
+  }
+
+  /// The Frank-Wolfe gap: a support that is no nearer than v along v adds nothing. From there on the plain direction is right.
+  bool brings_nothing(const Point& point) const {
+    return !(result_.v.dot(result_.v - point.w) > options_.tolerance * v_squared_) || result_.simplex.holds(point.w);
+  }
 
   /// Cuts the simplex down to the feature nearest the origin; false when that is no nearer than before (NaN included).
   bool reduce() {
@@ -107,7 +138,7 @@ class Gjk {
   bool accept(const Feature& feature) {
     if (!feature.enclosed && !(feature.v_squared < v_squared_)) {
       constexpr S rounding = 8 * std::numeric_limits<S>::epsilon();
-      if (!(feature.v_squared <= v_squared_ * (1 + rounding)) || ++steps_on_the_spot_ > 8) return false;
+      if (feature.v == result_.v || !(feature.v_squared <= v_squared_ * (1 + rounding)) || ++steps_on_the_spot_ > 8) return false;
     }
     if constexpr (traced<Trace>) before_ = vertex_numbers();
     result_.simplex.reduce_to(feature);
@@ -191,6 +222,8 @@ class Gjk {
   S plane_ = 0;
   bool enclosed_ = false;
   int steps_on_the_spot_ = 0;
+  bool accelerating_ = options_.accelerated;
+  V momentum_ = V::Zero(), last_ = V::Zero();
   GjkStatus status_ = GjkStatus::converged;
   std::array<int, D + 1> order_{};
   Numbers before_;

@@ -27,10 +27,7 @@ double default_tolerance(const Scene& scene, const Settings& s) {
 /// What the contract names and this version does not have yet.
 void refuse_missing(const Settings& s) {
   const std::string name(method_names[static_cast<std::size_t>(s.name)]);
-  if (s.name != MethodName::gjk && s.name != MethodName::gjk_boolean) refuse("method \"" + name + "\" is not available yet", "/method/name");
-  if (s.closest_point != ClosestPoint::signed_volumes)
-    refuse("closest_point \"" + std::string(closest_point_names[static_cast<std::size_t>(s.closest_point)]) + "\" is not available yet",
-           "/method/closest_point");
+  if (s.name == MethodName::mpr || s.name == MethodName::sat) refuse("method \"" + name + "\" is not available yet", "/method/name");
   if (s.penetration == Penetration::mpr) refuse("penetration \"mpr\" is not available yet", "/method/penetration");
 }
 

@@ -10,7 +10,9 @@
 #include "algo/boolean_gjk.h"
 #include "algo/epa.h"
 #include "algo/gjk.h"
+#include "algo/johnson.h"
 #include "algo/result.h"
+#include "algo/voronoi.h"
 #include "algo/world_trace.h"
 
 namespace gjkdbg {
@@ -32,7 +34,7 @@ class PairSolver {
              Workspace<D, S>& workspace, Trace& trace)
       : difference_(a, b, relative_pose<D, S>(pose_a, a.reference(), pose_b, b.reference(), scale)),
         frame_(pose_a, a.reference(), scale), settings_(settings), workspace_(workspace), trace_(trace),
-        radius_(static_cast<double>(difference_.radius())) {}
+        radius_(static_cast<double>(difference_.radius())), polytopes_(a.polytope() && b.polytope()) {}
 
   Result run(Query query) {
     if (settings_.name == MethodName::gjk_boolean) return boolean();
@@ -43,7 +45,9 @@ class PairSolver {
     options.tolerance = static_cast<S>(settings_.tolerance);
     options.max_iterations = settings_.max_iterations;
     options.direction = first_direction();
-    gjk_ = gjk<SignedVolumes<D, S>>(difference_, options, trace_);
+    options.accelerated = settings_.name == MethodName::gjk_accelerated;
+    options.normalised = polytopes_;
+    gjk_ = run_gjk(options);
     result_.status = gjk_status_names[static_cast<std::size_t>(gjk_.status)];
     result_.iterations = gjk_.iterations;
     if (query == Query::intersect) {
@@ -58,6 +62,14 @@ class PairSolver {
   }
 
  private:
+  GjkResult<D, S> run_gjk(const GjkOptions<D, S>& options) {
+    switch (settings_.closest_point) {
+      case ClosestPoint::johnson: return gjk<Johnson<D, S>>(difference_, options, trace_);
+      case ClosestPoint::voronoi: return gjk<VoronoiRegions<D, S>>(difference_, options, trace_);
+      default: return gjk<SignedVolumes<D, S>>(difference_, options, trace_);
+    }
+  }
+
   V first_direction() const {
     if (settings_.initial_direction) {
       const Vector<D, double> world = *settings_.initial_direction;
@@ -144,6 +156,7 @@ class PairSolver {
   Workspace<D, S>& workspace_;
   Trace& trace_;
   const double radius_;
+  const bool polytopes_;
   GjkResult<D, S> gjk_;
   Result result_;
 };

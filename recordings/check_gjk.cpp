@@ -89,8 +89,11 @@ void GjkCheck::operator()(const recorded::SupportQueried& e) {
     pending_.insert(pending_.begin(), e.vertex);
     return;
   }
-  if (reported_ && pending_.empty()) check_towards_origin(e.direction);
-  check_progress(e);
+  // Momentum leads the directions of accelerated GJK astray on purpose, and a support that brings nothing ends the momentum, not the search.
+  if (c_.recording.settings.name != MethodName::gjk_accelerated) {
+    if (reported_ && pending_.empty()) check_towards_origin(e.direction);
+    check_progress(e);
+  }
   auto& same = directions_[key_of(e.direction)];
   same.push_back(c_.step);
   if (same.size() >= 3)

@@ -152,7 +152,9 @@ bool method(App& app, SceneFile& next) {
     next.scene.query = static_cast<Query>(query), edited = true;
     if (query != 0 && now.name == MethodName::gjk_boolean) next.method.name = MethodName::gjk;
   }
-  if (choice(theme, "method", name, method_names, query == 0 ? std::vector<int>{0, 1} : std::vector<int>{0})) next.method.name = static_cast<MethodName>(name), edited = true;
+  if (choice(theme, "method", name, method_names, query == 0 ? std::vector<int>{0, 1, 2} : std::vector<int>{0, 2})) next.method.name = static_cast<MethodName>(name), edited = true;
+  int part = static_cast<int>(now.closest_point);
+  if (now.name != MethodName::gjk_boolean && choice(theme, "closest point", part, closest_point_names, {0, 1, 2})) next.method.closest_point = static_cast<ClosestPoint>(part), edited = true;
   if (choice(theme, "scalar", scalar, scalar_names, {0, 1})) next.method.scalar = static_cast<Scalar>(scalar), next.method.tolerance.reset(), edited = true;
   ImGui::AlignTextToFramePadding();
   ImGui::TextColored(vec(theme.palette.text_soft), "tolerance");

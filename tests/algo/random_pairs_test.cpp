@@ -96,6 +96,32 @@ TEST(RandomPairs, PolytopesAgreeWithExactArithmetic) {
   std::printf("worst error %.2g, witness %.2g, gap %.2g of the size\n", worst.distance, worst.witness, worst.gap);
 }
 
+/// The other sub-algorithms and acceleration, behind the same monotone loop and second opinion: as right, now and then stalled.
+TEST(RandomPairs, EveryVariantAgreesWithExactArithmetic) {
+  for (const MethodName name : {MethodName::gjk, MethodName::gjk_accelerated})
+    for (const ClosestPoint part : {ClosestPoint::johnson, ClosestPoint::voronoi, ClosestPoint::signed_volumes}) {
+      if (name == MethodName::gjk && part == ClosestPoint::signed_volumes) continue;
+      RandomScenes random(6);
+      int stalled = 0;
+      for (int k = 0; k < pairs() / 10; ++k) {
+        const int dimension = 1 + k % 3;
+        const auto family = static_cast<Family>(k / 3 % family_count);
+        const Scene scene = random.scene(dimension, family, true);
+        SCOPED_TRACE(where(dimension, family, k));
+        Method method;
+        method.name = name, method.closest_point = part;
+        const Result r = solve(scene, resolve_settings(method, scene));
+        const auto exact = oracle::signed_distance(scene);
+        const double size = std::max(size_of(scene), std::abs(exact->signed_distance));
+        EXPECT_NEAR(*r.signed_distance, exact->signed_distance, 1e-10 * size);
+        EXPECT_NE(r.status, "iteration_limit");
+        stalled += r.status == "stalled";
+        if (testing::Test::HasFailure()) return;
+      }
+      EXPECT_LE(stalled, pairs() / 500);
+    }
+}
+
 TEST(RandomPairs, ContactPointsLieOnBothBodies) {
   RandomScenes random(2);
   int found = 0;

@@ -37,6 +37,8 @@ TEST(Check, OurOwnRecordingsOfRandomScenesAreClean) {
     SceneFile file;
     file.scene = random.scene(1 + k % 3, static_cast<Family>(k / 3 % family_count), k % 2 == 0);
     file.scene.query = static_cast<Query>(k % 4);
+    file.method.closest_point = static_cast<ClosestPoint>(k / 7 % 3);
+    if (k / 5 % 3 == 0) file.method.name = MethodName::gjk_accelerated;
     if (file.scene.query == Query::intersect && k % 8 < 4) file.method.name = MethodName::gjk_boolean;
     EXPECT_EQ(text(check(record(file))), "") << "scene " << k;
     if (testing::Test::HasFailure()) break;
