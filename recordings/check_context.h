@@ -80,8 +80,8 @@ class GjkCheck {
   CheckContext& c_;
   std::vector<int> simplex_, pending_;  ///< kept, and queried since
   bool reported_ = false;               ///< whether any simplex was
-  bool idle_query_ = false;             ///< the last query brought nothing new
-  std::size_t idle_step_ = 0;
+  AnyVector last_direction_;
+  int stuck_ = 0;  ///< how often the search went on although nothing had changed
   double best_plane_ = -1e300;
   std::map<std::string, std::size_t> regions_;
   std::string last_region_;

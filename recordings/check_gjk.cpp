@@ -64,24 +64,17 @@ void GjkCheck::check_towards_origin(const AnyVector& d) {
             Finding::Severity::warning);
 }
 
-/// A query that brings nothing beyond the simplex is the end: a solver that goes on has missed it.
+/// A query that leaves the simplex as it was is the end, unless the nearest point was put more exactly and the direction has turned.
 void GjkCheck::check_progress(const recorded::SupportQueried& e) {
-  const std::vector<AnyVector> w = points(simplex_);
-  if (idle_query_ && repeated_at_ && pending_.empty()) {
+  const bool same_direction = last_direction_.size() > 0 && (e.direction - last_direction_).norm() <= 1e-12 * e.direction.norm();
+  last_direction_ = e.direction;
+  if (!repeated_at_ || !pending_.empty() || !same_direction) return;
+  if (stuck_++ == 0)
+    c_.find("no-progress", "The support before left the simplex " + list_of(simplex_) + " of step " + std::to_string(*repeated_from_) + " as it was: nothing nearer the origin exists. The search goes on all the same, in the same direction. "
+                           "Stop when |v|^2 - v . w is small beside |v|^2.");
+  else
     c_.find("cycle", "The simplex " + list_of(simplex_) + " of step " + std::to_string(*repeated_at_) + " is that of step " + std::to_string(*repeated_from_) +
                          " again, and the search goes on as it did then: it will never end. Stop when a support is no farther along d than the simplex.");
-  } else if (idle_query_ && pending_.empty()) {
-    c_.find("no-progress", "The support of step " + std::to_string(idle_step_) + " lies no farther along its direction than the simplex, so nothing nearer the origin exists; the search goes on all the same. "
-                           "Stop when |v|^2 - v . w is small beside |v|^2.");
-  }
-  idle_query_ = false;
-  if (w.empty() || !reported_) return;
-  const AnyVector v = nearest_point(w).v;
-  if (v.norm() <= c_.tolerance) return;
-  double most = -1e300;
-  for (const AnyVector& p : w) most = std::max(most, e.direction.dot(p));
-  idle_query_ = e.direction.dot(e.w) - most <= 1e-14 * e.direction.norm() * c_.size;
-  idle_step_ = c_.step;
 }
 
 void GjkCheck::operator()(const recorded::SupportQueried& e) {
@@ -156,7 +149,7 @@ void GjkCheck::check_cycle(const std::vector<int>& region) {
   if (other_between)
     c_.find("cycle", "The simplex " + list_of(region) + " is that of step " + std::to_string(found->second) + " again: from here on everything repeats, and the search will never end. |v| must fall in every step; the usual cause is a region test that drops a vertex the nearest part needs.");
   else
-    repeated_from_ = found->second, repeated_at_ = c_.step, idle_query_ = true;
+    repeated_from_ = found->second, repeated_at_ = c_.step;
 }
 
 void GjkCheck::operator()(const recorded::SimplexReduced& e) {
