@@ -35,6 +35,8 @@ int main(int argc, char** argv) {
   add_check(app, status);
   add_run(app, status);
   add_sweep(app, status);
+  add_chart(app, status);
+  add_atlas(app, status);
   add_scenes(app, status);
   try {
     app.parse(argc, argv);

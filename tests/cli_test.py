@@ -157,6 +157,48 @@ class Program(unittest.TestCase):
         names = [line.split()[0] for line in result.stdout.splitlines() if line.startswith("  ")]
         self.assertEqual(len(names), len(list((ROOT / "recordings/gallery").glob("*.scene.json"))))
 
+    def test_chart(self):
+        folder = self.path / "chart"
+        result = run("chart", "--quick", "-o", folder)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        chart = json.loads((folder / "chart.json").read_text())
+        self.assertGreaterEqual(len(chart["families"]), 9)
+        for family in chart["families"]:
+            self.assertTrue(any(p["front"] for p in family["points"]))
+            tight = [p for p in family["points"] if p["tolerance"] <= 1e-10]
+            self.assertTrue(tight)
+            for p in tight:  # accuracy, never time, decides
+                self.assertEqual(p["wrong"], 0, (family["name"], p))
+                self.assertLessEqual(p["worst_error"], 1e-7, (family["name"], p))
+        self.assertEqual((folder / "chart.csv").read_text().count("\n"), 1 + sum(len(f["points"]) for f in chart["families"]))
+        # More than a scene needs is computed nowhere: fewer supports for less.
+        price = {p["what"]: p for p in chart["price"]}
+        self.assertLess(price["boxes, yes or no"]["supports"], price["boxes, distance"]["supports"])
+        self.assertLess(price["boxes, distance"]["supports"], price["boxes, penetration"]["supports"])
+        self.assertAlmostEqual(price["spheres as centre and radius"]["supports"], 2)
+        for drawing in ("chart.svg", "chart.png"):
+            self.assertGreater((folder / drawing).stat().st_size, 10000)
+
+    def test_atlas_and_its_gate(self):
+        folder = self.path / "atlas"
+        kept = ROOT / "tests/kept/atlas.json"
+        result = run("atlas", "--quick", "-o", folder, "--gate", kept)
+        self.assertEqual(result.returncode, 0, result.stdout)
+        atlas = json.loads((folder / "atlas.json").read_text())
+        for family in atlas["families"]:
+            for cell in family["cells"]:
+                if "float" not in cell["method"]:
+                    self.assertIn(cell["verdict"], ("right", "right-within-rounding"), (family["name"], cell["method"]))
+        # A kept result that was better than it can be: the gate closes.
+        better = json.loads(kept.read_text())
+        for family in better["families"]:
+            for cell in family["cells"]:
+                cell["verdict"] = "right"
+        result = run("atlas", "--quick", "-o", folder, "--gate", self.write("better.json", better))
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("worse than kept", result.stdout)
+        self.refused(run("atlas", "--quick", "-o", folder, "--gate", self.scene), "/format")
+
     def test_meshes_are_relative_to_the_scene_and_stand_in_the_recording(self):
         self.write("tetra.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
         scene = {**CUBES, "bodies": [{"shape": {"type": "hull", "mesh": "tetra.obj"}}, CUBES["bodies"][1]]}

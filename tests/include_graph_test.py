@@ -13,7 +13,7 @@ BANNED = {
     "recordings": ["imgui", "GLFW", "epoxy", "EGL"],
 }
 # Within debugger/, by folder: render draws; view shows what render draws; commands run either.
-INNER = {"debugger/render": ["debugger/render"], "debugger/view": ["debugger/render", "debugger/view"]}
+INNER = {"debugger/lab": ["debugger/lab"], "debugger/solver": ["debugger/solver"], "debugger/render": ["debugger/render"], "debugger/view": ["debugger/render", "debugger/view"]}
 
 
 def sources(room):

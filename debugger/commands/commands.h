@@ -20,6 +20,8 @@ void add_query(CLI::App& app, Status& status);
 void add_check(CLI::App& app, Status& status);
 void add_run(CLI::App& app, Status& status);
 void add_sweep(CLI::App& app, Status& status);
+void add_chart(CLI::App& app, Status& status);
+void add_atlas(CLI::App& app, Status& status);
 void add_scenes(CLI::App& app, Status& status);
 void add_view(CLI::App& app, Status& status);    ///< only in builds with the window
 void add_render(CLI::App& app, Status& status);  ///< the same

@@ -1,0 +1,90 @@
+// chart: speed against accuracy, into a folder.
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <unistd.h>
+
+#include "debugger/commands/commands.h"
+#include "debugger/commands/lab.h"
+#include "debugger/commands/output_file.h"
+#include "debugger/lab/chart.h"
+#include "shapes/error.h"
+
+namespace gjkdbg {
+
+namespace {
+std::atomic<bool> interrupted{false};
+}
+
+LabProgress::LabProgress() : began_(std::chrono::steady_clock::now()) {
+  interrupted = false;
+  std::signal(SIGINT, [](int) { interrupted = true; });
+}
+LabProgress::~LabProgress() { std::signal(SIGINT, SIG_DFL); }
+
+bool LabProgress::operator()(double share) {
+  if (isatty(STDERR_FILENO) != 0) {
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+    const int left = share > 0 ? static_cast<int>(seconds / share * (1 - share) + 0.5) : 0;
+    std::cerr << "\r" << static_cast<int>(share * 100) << "%, " << left << " s left\033[K" << (share >= 1 ? "\n" : "") << std::flush;
+  }
+  return !interrupted;
+}
+
+void draw_both(const std::function<std::string(const std::string&, const std::string&)>& commands, const std::filesystem::path& stem) {
+  const std::string svg = stem.string() + ".svg", png = stem.string() + ".png";
+  const bool drawn = run_gnuplot(commands("svg size 1400,1000 font 'Inter,12' background '#ffffff'", svg)) && run_gnuplot(commands("pngcairo size 1400,1000 font 'Inter,11'", png));
+  if (!drawn) std::cerr << "gjkdbg: gnuplot is not installed or failed: no SVG and PNG, only the numbers\n";
+}
+
+namespace {
+
+struct ChartCommand {
+  bool quick = false;
+  std::string output = "chart";
+
+  int run() const {
+    std::error_code error;
+    std::filesystem::create_directories(output, error);
+    if (error) throw Error("cannot-write", "cannot be made: " + error.message(), output);
+    LabProgress progress;
+    const Chart chart = make_chart(quick, std::ref(progress));
+    const std::filesystem::path folder(output);
+    write_output((folder / "chart.csv").string(), chart_csv(chart));
+    write_output((folder / "chart.json").string(), chart_json(chart));
+    draw_both([&](const std::string& terminal, const std::string& file) { return chart_gnuplot(chart, terminal, file); }, folder / "chart");
+    print(chart);
+    return exit_done;
+  }
+
+  static void print(const Chart& chart) {
+    for (const ChartPanel& panel : chart.panels) {
+      std::cout << panel.title << " (" << panel.pairs << " pairs)\n";
+      for (const ChartPoint& p : panel.points)
+        if (p.front)
+          std::cout << "  " << std::left << std::setw(26) << p.variant << " tolerance " << std::setw(7) << p.tolerance << std::right << std::setw(8) << std::fixed << std::setprecision(0) << p.nanoseconds
+                    << std::defaultfloat << std::setprecision(2) << " ns, worst error " << p.worst_error << (p.wrong > 0 ? ", " + std::to_string(p.wrong) + " off by more than 1e-3" : "") << "\n";
+    }
+    if (!chart.price.empty()) std::cout << "What modelling too much costs\n";
+    for (const PricePoint& p : chart.price)
+      std::cout << "  " << std::left << std::setw(42) << p.what << std::right << std::setw(8) << std::fixed << std::setprecision(0) << p.nanoseconds << std::defaultfloat << std::setprecision(3) << " ns, "
+                << p.supports << " supports, worst error " << std::setprecision(2) << p.worst_error << "\n";
+  }
+};
+
+}  // namespace
+
+void add_chart(CLI::App& app, Status& status) {
+  auto options = std::make_shared<ChartCommand>();
+  CLI::App* command = app.add_subcommand("chart", "Speed against accuracy: SVG, PNG, CSV, JSON into a folder");
+  command->add_flag("--quick", options->quick, "fewer pairs and tolerances");
+  command->add_option("-o,--output", options->output, "folder (chart)");
+  command->callback([options, &status] { status = options->run(); });
+}
+
+}  // namespace gjkdbg
