@@ -192,6 +192,12 @@ class Solver(unittest.TestCase):
             with self.subTest(code):
                 self.assertEqual(status, 1, findings)
                 self.expect(findings, code, code)
+                # Named at its step: the event that was changed.
+                same_length = len(changed["events"]) == len(recording["events"])
+                steps = [i for i, (x, y) in enumerate(zip(changed["events"], recording["events"])) if x != y]
+                found = next(f for f in findings if f["code"] == code.removeprefix("any:"))
+                if steps and same_length:
+                    self.assertEqual(found["step"], steps[0])
 
     def test_what_was_recorded_before_a_crash_is_kept(self):
         with tempfile.TemporaryDirectory() as folder:
