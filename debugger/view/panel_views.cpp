@@ -120,13 +120,19 @@ std::optional<int> vertex_under(const std::vector<FlatItem>& items, ImVec2 mouse
   return best;
 }
 
-/// A ring at each body's position; dragging it moves the body in the picture's plane.
+/// The middle of what is seen of a body: its pose's position may lie far from it.
+ViewPoint middle(const DisplayMesh& mesh) {
+  ViewPoint low = mesh.points[0], high = low;
+  for (const ViewPoint& p : mesh.points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  return (low + high) / 2;
+}
+
+/// A ring in each body's middle; dragging it moves the body in the picture's plane.
 void body_handles(App& app, const Projection& projection, ImDrawList* draw) {
   static int dragged = -1;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   for (int i = 0; i < 2; ++i) {
-    const Body& body = app.session.scene().scene.bodies[static_cast<std::size_t>(i)];
-    const Projected p = projection(to_view(body.pose.position));
+    const Projected p = projection(middle(i == 0 ? app.session.meshes().a : app.session.meshes().b));
     const Colour colour = i == 0 ? app.theme.palette.body_a : app.theme.palette.body_b;
     const float r = app.theme.px(9);
     const bool near = ImGui::IsItemHovered() && std::hypot(mouse.x - p.x, mouse.y - p.y) < r + app.theme.px(4);
@@ -171,8 +177,8 @@ void one_view(App& app, const Area& area, bool world, bool interactive) {
     if (world) body_handles(app, projection, draw);
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && world) {
       on_handle = false;
-      for (const Body& body : app.session.scene().scene.bodies) {
-        const Projected p = projection(to_view(body.pose.position));
+      for (const DisplayMesh* mesh : {&app.session.meshes().a, &app.session.meshes().b}) {
+        const Projected p = projection(middle(*mesh));
         on_handle = on_handle || std::hypot(ImGui::GetIO().MousePos.x - p.x, ImGui::GetIO().MousePos.y - p.y) < theme.px(13);
       }
     }
