@@ -7,9 +7,10 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PROGRAM = sys.argv.pop(1)
+PROGRAM = os.path.abspath(sys.argv.pop(1))
 
 CUBES = {
     "format": "gjk-scene", "version": 1, "dimension": 3,
@@ -156,6 +157,28 @@ class Program(unittest.TestCase):
         self.assertEqual(result.returncode, 0)
         names = [line.split()[0] for line in result.stdout.splitlines() if line.startswith("  ")]
         self.assertEqual(len(names), len(list((ROOT / "recordings/gallery").glob("*.scene.json"))))
+
+    @unittest.skipUnless("render" in run("--help").stdout, "built without the view")
+    def test_render(self):
+        recording = self.path / "cubes.recording.json"
+        run("dump", self.scene, "-o", recording)
+        pictures = []
+        for step in ("0", "3", "last", "-1"):
+            out = self.path / f"step{step}.png"
+            result = run("render", recording, "--step", step, "-o", out, "--width", 640, "--height", 400)
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            pictures.append(out.read_bytes())
+            self.assertEqual(pictures[-1][1:4], b"PNG")
+        self.assertEqual(len(set(pictures)), 3)  # -1 is the last
+        svg = self.path / "step.svg"
+        self.assertEqual(run("render", self.scene, "--step", 3, "-o", svg).returncode, 0)
+        root = xml.etree.ElementTree.fromstring(svg.read_text())
+        self.assertGreater(len(list(root.iter("{http://www.w3.org/2000/svg}line"))), 20)
+        gif = self.path / "replay.gif"
+        self.assertEqual(run("render", "2d-deep", "--all", "-o", gif, "--width", 320, "--height", 200).returncode, 0)
+        self.assertEqual(gif.read_bytes()[:6], b"GIF89a")
+        self.refused(run("render", self.scene, "--step", 999, "-o", svg), "--step 999")
+        self.refused(run("render", self.scene, "-o", self.path / "picture.bmp"), "picture.bmp")
 
     def test_chart(self):
         folder = self.path / "chart"

@@ -13,7 +13,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 KIT = ROOT / "debugger/solver/kits/gjk.py"
-PROGRAM = sys.argv.pop(1)
+PROGRAM = os.path.abspath(sys.argv.pop(1))
 SOURCE = KIT.read_text()
 
 STOP = """        if dot(v, v) - dot(v, w.w) <= tolerance * dot(v, v) or any(w.w == x.w for x in simplex):
