@@ -10,9 +10,7 @@
 
 #include "gjkdbg_solver.h"
 
-using gjkdbg::Solver;
-using gjkdbg::Vec;
-using gjkdbg::Vertex;
+using gjkdbg::Solver, gjkdbg::Vec, gjkdbg::Vertex;
 using Corners = std::vector<Vertex>;
 
 // --- Vectors ---------------------------------------------------------------------------------------------------------
@@ -57,10 +55,9 @@ static Vec affine_weights(const Corners& p) {
   const std::size_t n = p.size() - 1;
   std::vector<Vec> e, rows;
   for (std::size_t i = 0; i < n; ++i) e.push_back(minus(p[i + 1].w, p[0].w));
-  for (const Vec& x : e) {
-    rows.emplace_back();
-    for (const Vec& y : e) rows.back().push_back(dot(x, y));
-    rows.back().push_back(-dot(x, p[0].w));
+  for (std::size_t i = 0; i < n; ++i) {
+    for (rows.emplace_back(); rows[i].size() < n;) rows[i].push_back(dot(e[i], e[rows[i].size()]));
+    rows[i].push_back(-dot(e[i], p[0].w));
   }
   for (std::size_t c = 0; c < n; ++c) {
     for (std::size_t r = c + 1; r < n; ++r)
@@ -98,8 +95,8 @@ static Nearest gjk(Solver& solver, double tolerance) {
     scale = std::max(scale, length(w.w));
     const bool known = std::any_of(now.part.begin(), now.part.end(), [&](const Vertex& x) { return x.w == w.w; });
     if (dot(now.v, now.v) - dot(now.v, w.w) <= tolerance * dot(now.v, now.v) || known) return now;
-    Corners simplex = now.part;
-    simplex.insert(simplex.begin(), w);
+    Corners simplex{w};
+    simplex.insert(simplex.end(), now.part.begin(), now.part.end());
     const Nearest next = nearest(simplex);
     if (dot(next.v, next.v) >= dot(now.v, now.v)) return now;  // rounding: no nearer part can be told
     now = next;
@@ -107,11 +104,8 @@ static Nearest gjk(Solver& solver, double tolerance) {
 }
 
 // --- EPA -----------------------------------------------------------------------------------------------------------------
-struct Face {
-  Corners corners;
-  Vec normal;  ///< unit, away from a point inside; empty when the face has no area
-  double distance = 0;
-};
+/// `normal`: unit, away from a point inside; empty when the face has no area.
+struct Face { Corners corners; Vec normal; double distance = 0; };
 static Face make_face(const Corners& c, const Vec& inside) {
   Vec n(1, 1.0);
   if (c.size() == 2) n = {c[1].w[1] - c[0].w[1], c[0].w[0] - c[1].w[0]};
@@ -156,11 +150,7 @@ static bool complete(Solver& solver, Corners& points, const Corners& simplex, Ve
   }
   return true;
 }
-struct Depth {
-  double depth;
-  Vec normal;
-  Nearest foot;
-};
+struct Depth { double depth; Vec normal; Nearest foot; };
 static Depth epa(Solver& solver, const Corners& simplex, double tolerance) {
   Corners points;
   Vec flat;
@@ -218,9 +208,8 @@ int main() {
   Solver solver;
   const Nearest found = gjk(solver, std::max(solver.tolerance, 1e-12));
   const double distance = length(found.v);
-  if (solver.query == "intersect") {
-    solver.result(distance == 0);
-  } else if (distance > 0) {
+  if (solver.query == "intersect") solver.result(distance == 0);
+  else if (distance > 0) {
     solver.result(false, distance, scaled(-1 / distance, found.v), found.at(&Vertex::a), found.at(&Vertex::b));
   } else if (solver.query == "distance") {
     solver.result(true, 0.0);
