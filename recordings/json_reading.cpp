@@ -109,6 +109,7 @@ bool convert(const simdjson::dom::element& from, Json& to) {
     case Type::OBJECT: {
       to = Json::object();
       auto& members = to.get_ref<Json::object_t&>();
+      members.reserve(simdjson::dom::object(from).size());
       for (const auto& [key, value] : simdjson::dom::object(from)) {
         for (const auto& member : members)
           if (member.first == key) return false;
@@ -161,6 +162,46 @@ Json parse_carefully(std::string_view text) {
 Json parse_json(std::string_view text) {
   Json json;
   return parse_fast(text, json) ? json : parse_carefully(text);
+}
+
+namespace {
+
+/// The fast way in parts. False, before anything was handed over, when the document is unusual; elements that are go the careful way.
+bool parts_fast(std::string_view text, std::string_view list, const std::function<void(const Json&)>& rest, const std::function<void(std::size_t, const Json&)>& element) {
+  simdjson::dom::parser parser(std::size_t{1} << 31);
+  simdjson::dom::object document;
+  if (parser.parse(text.data(), text.size()).get(document) != simdjson::SUCCESS) return false;
+  Json head = Json::object();
+  simdjson::dom::array elements;
+  bool long_list = false;
+  for (const auto& [key, value] : document) {
+    if (head.contains(std::string(key))) return false;
+    Json& member = head[std::string(key)];
+    if (key == list && value.get(elements) == simdjson::SUCCESS) member = Json::array(), long_list = true;
+    else if (!convert(value, member)) return false;
+  }
+  rest(head);
+  std::size_t i = 0;
+  if (long_list)
+    for (const auto& value : elements) {
+      Json one;
+      if (!convert(value, one)) parse_carefully(text);  // says what is wrong, and where
+      element(i++, one);
+    }
+  return true;
+}
+
+}  // namespace
+
+void parse_json_in_parts(std::string_view text, std::string_view list, const std::function<void(const Json&)>& rest, const std::function<void(std::size_t, const Json&)>& element) {
+  if (parts_fast(text, list, rest, element)) return;
+  Json json = parse_carefully(text);
+  const auto found = json.is_object() ? json.find(std::string(list)) : json.end();
+  if (!json.is_object() || found == json.end() || !found->is_array()) return rest(json);
+  const Json elements = std::move(*found);
+  *found = Json::array();
+  rest(json);
+  for (std::size_t i = 0; i < elements.size(); ++i) element(i, elements[i]);
 }
 
 std::string nearest_name(std::string_view word, const std::vector<std::string_view>& candidates) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -42,6 +43,11 @@ class Place {
 
 /// Parses text; throws Error with "line L, column C".
 Json parse_json(std::string_view text);
+
+/// Parses an object whose member `list` may be long: `rest` gets the object with that member emptied (if it is an array), then `element`
+/// each of its elements, which are not kept. Throws as parse_json does, and what the two throw.
+void parse_json_in_parts(std::string_view text, std::string_view list, const std::function<void(const Json&)>& rest,
+                         const std::function<void(std::size_t, const Json&)>& element);
 
 /// The candidate nearest to a word, by edit distance; empty when none is near.
 std::string nearest_name(std::string_view word, const std::vector<std::string_view>& candidates);

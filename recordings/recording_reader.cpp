@@ -93,31 +93,24 @@ struct FieldReader {
 };
 
 template <std::size_t I = 0>
-Event read_event(const std::string& kind, const Json& json, const Place& place, const FieldReader& reader) {
+Event read_event_of(const std::string& kind, const Json& json, const Place& place, const FieldReader& reader) {
   if constexpr (I == std::variant_size_v<Event>) {
     reject(Place(place, "kind"), "unknown-name", "\"" + kind + "\" is no kind of event");
   } else {
     using E = std::variant_alternative_t<I, Event>;
-    if (kind != E::kind) return read_event<I + 1>(kind, json, place, reader);
+    if (kind != E::kind) return read_event_of<I + 1>(kind, json, place, reader);
     E event;
     reader.read_fields(json, place, event, true);
     return event;
   }
 }
 
-std::vector<Event> read_events(const Json& json, const Place& place, int dimension) {
-  if (!json.is_array()) reject(place, "wrong-type", "must be an array of events");
-  const FieldReader reader{dimension};
-  std::vector<Event> events;
-  events.reserve(json.size());
-  for (std::size_t i = 0; i < json.size(); ++i) {
-    const Place here(place, i);
-    if (!json[i].is_object()) reject(here, "wrong-type", "must be an object");
-    const auto kind = json[i].find("kind");
-    if (kind == json[i].end()) reject(Place(here, "kind"), "missing-field", "is missing");
-    events.push_back(read_event(read_string(*kind, Place(here, "kind")), json[i], here, reader));
-  }
-  return events;
+Event read_event(const Json& json, const Place& place, const FieldReader& reader) {
+  if (!json.is_object()) reject(place, "wrong-type", "must be an object");
+  const auto kind = json.find("kind");
+  const Place at(place, "kind");
+  if (kind == json.end()) reject(at, "missing-field", "is missing");
+  return read_event_of(read_string(*kind, at), json, place, reader);
 }
 
 std::optional<double> read_optional_number(ObjectReader& o, const char* key) {
@@ -162,18 +155,20 @@ Result read_result(const Json& json, const Place& place, int dimension) {
 
 }  // namespace
 
-Recording parse_recording(std::string_view text, const std::filesystem::path& directory) {
-  const Json json = parse_json(text);
+namespace {
+
+/// Everything but the events themselves.
+Recording read_head(const Json& json, const std::filesystem::path& directory) {
   const Place root;
   ObjectReader o(json, root);
   if (read_string(o.required("format"), o.at("format")) != "gjk-recording") reject(o.at("format"), "wrong-format", "must be \"gjk-recording\"");
   read_integer(o.required("version"), o.at("version"), 1, 1);
   Recording recording;
   if (const Json* generator = o.optional("generator")) recording.generator = read_string(*generator, o.at("generator"));
+  const Json& scene = o.required("scene");
   try {
-    recording.scene = scene_from_json(o.required("scene"), directory);
+    recording.scene = scene_from_json(scene, directory);
   } catch (const Error& e) {
-    if (e.code() == "missing-field" && !o.has("scene")) throw;
     throw e.within("/scene");
   }
   const int dimension = recording.scene.scene.dimension;
@@ -183,9 +178,20 @@ Recording parse_recording(std::string_view text, const std::filesystem::path& di
   } catch (const Error& e) {
     throw e.where() == "/query" ? e.within("/scene") : e;
   }
-  recording.events = read_events(o.required("events"), o.at("events"), dimension);
+  if (!o.required("events").is_array()) reject(o.at("events"), "wrong-type", "must be an array of events");
   recording.result = read_result(o.required("result"), o.at("result"), dimension);
   o.finish();
+  return recording;
+}
+
+}  // namespace
+
+Recording parse_recording(std::string_view text, const std::filesystem::path& directory) {
+  Recording recording;
+  const Place root, events(root, "events");
+  parse_json_in_parts(
+      text, "events", [&](const Json& head) { recording = read_head(head, directory); },
+      [&](std::size_t i, const Json& json) { recording.events.push_back(read_event(json, Place(events, i), FieldReader{recording.scene.scene.dimension})); });
   return recording;
 }
 
