@@ -106,6 +106,8 @@ EDITS = [
     ("box-box-deep", lambda r: at(r, "polytope_seeded")["faces"].pop(), "open-polytope"),
     ("box-box-deep", lambda r: at(r, "polytope_grown")["removed"].pop(), "any:visible-face-kept"),
     ("box-box-deep", lambda r: at(r, "polytope_grown")["added"].pop(), "open-polytope"),
+    # A face stays that an older vertex sees, not the one that came.
+    ("box-box-deep", lambda r: (at(r, "polytope_grown")["removed"].pop(), at(r, "polytope_grown").update(vertex=0)), "any:non-convex-polytope"),
     ("box-box-deep", lambda r: r["result"].update(normal=negated(r["result"]["normal"])), "any:flipped-normal"),
     ("box-box-deep", lambda r: r["result"].update(signed_distance=-1.0), "any:wrong-depth"),
     ("box-box-deep", lambda r: r["result"].update(intersecting=False), "any:wrong-answer"),

@@ -23,6 +23,14 @@ int milliseconds_until(SolverProcess::Deadline deadline) {
 
 bool expired(SolverProcess::Deadline deadline) { return std::chrono::steady_clock::now() >= deadline; }
 
+[[noreturn]] void cannot_start() { throw Error("cannot-start", std::string("cannot be started: ") + std::strerror(errno), "--exec"); }
+
+/// Both ends closed in programs that are started later. (pipe2 does it in one call, but macOS has none.)
+void open_pipe(int ends[2]) {
+  if (pipe(ends) != 0) cannot_start();
+  for (int i = 0; i < 2; ++i) fcntl(ends[i], F_SETFD, FD_CLOEXEC);
+}
+
 [[noreturn]] void run_child(const std::string& command, const int in[2], const int out[2]) {
   setpgid(0, 0);
   dup2(in[0], STDIN_FILENO);
@@ -36,12 +44,11 @@ bool expired(SolverProcess::Deadline deadline) { return std::chrono::steady_cloc
 
 SolverProcess::SolverProcess(const std::string& command) {
   int in[2], out[2];
-  if (pipe2(in, O_CLOEXEC) != 0) throw Error("cannot-start", std::string("cannot be started: ") + std::strerror(errno), "--exec");
-  if (pipe2(out, O_CLOEXEC) != 0) throw Error("cannot-start", std::string("cannot be started: ") + std::strerror(errno), "--exec");
+  open_pipe(in), open_pipe(out);
   pid_ = fork();
   if (pid_ == 0) run_child(command, in, out);
   close(in[0]), close(out[1]);
-  if (pid_ < 0) throw Error("cannot-start", std::string("cannot be started: ") + std::strerror(errno), "--exec");
+  if (pid_ < 0) cannot_start();
   setpgid(pid_, pid_);  // both sides do: whoever comes first
   to_ = in[1], from_ = out[0];
   fcntl(to_, F_SETFL, O_NONBLOCK);
