@@ -75,6 +75,7 @@ class GjkCheck {
   void check_progress(const recorded::SupportQueried& e);
   void check_region(const recorded::SimplexReduced& e);
   void check_cycle(const std::vector<int>& region);
+  void check_repetition(const AnyVector& direction);
   bool heuristic_region(const std::vector<int>& before, const AnyVector& v);
 
   CheckContext& c_;
@@ -86,7 +87,7 @@ class GjkCheck {
   std::map<std::string, std::size_t> regions_;
   std::string last_region_;
   std::optional<std::size_t> repeated_from_, repeated_at_;
-  std::map<std::string, std::vector<std::size_t>> directions_;
+  std::vector<std::string> directions_;  ///< of the queries, as keys
 };
 
 /// EPA's part.

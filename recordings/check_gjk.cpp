@@ -77,6 +77,22 @@ void GjkCheck::check_progress(const recorded::SupportQueried& e) {
                          " again, and the search goes on as it did then: it will never end. Stop when a support is no farther along d than the simplex.");
 }
 
+/// The same directions in the same order, four times over. Fewer may be chance: where a solver reports nothing, GJK's last
+/// directions and EPA's first ones stand side by side, and they may well be the same.
+void GjkCheck::check_repetition(const AnyVector& direction) {
+  constexpr std::size_t longest = 32, times = 4;
+  directions_.push_back(key_of(direction));
+  const std::size_t n = directions_.size();
+  for (std::size_t period = 1; period <= longest && period * times <= n; ++period) {
+    const auto last = directions_.end();
+    const auto p = static_cast<std::ptrdiff_t>(period), all = static_cast<std::ptrdiff_t>(period * times);
+    if (!std::equal(last - all + p, last, last - all)) continue;
+    c_.find("cycle", "The direction " + text_of(direction) + (period == 1 ? " is" : ", and the " + std::to_string(period - 1) + " before it, are") + " searched for the fourth time running: the same supports come back, and the search "
+                     "will never end. Stop when a support is no farther along d than the simplex.");
+    return;
+  }
+}
+
 void GjkCheck::operator()(const recorded::SupportQueried& e) {
   if (!c_.check_direction(e.direction)) {
     pending_.insert(pending_.begin(), e.vertex);
@@ -87,11 +103,7 @@ void GjkCheck::operator()(const recorded::SupportQueried& e) {
     if (reported_ && pending_.empty()) check_towards_origin(e.direction);
     check_progress(e);
   }
-  auto& same = directions_[key_of(e.direction)];
-  same.push_back(c_.step);
-  if (same.size() >= 3)
-    c_.find("cycle", "The direction " + text_of(e.direction) + " is searched for the third time (steps " + std::to_string(same[0]) + ", " + std::to_string(same[1]) + " and " + std::to_string(same[2]) +
-                         "): the same supports come back, and the search will never end. Stop when a support is no farther along d than the simplex.");
+  check_repetition(e.direction);
   best_plane_ = std::max(best_plane_, -e.direction.stableNormalized().dot(e.w));
   pending_.insert(pending_.begin(), e.vertex);
 }

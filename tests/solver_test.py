@@ -156,6 +156,19 @@ class Solver(unittest.TestCase):
     def test_python_kit_is_clean_on_the_gallery(self):
         self.clean_on_the_gallery(f"/usr/bin/python3 {KIT}")
 
+    def test_variants_of_a_right_solver_are_clean(self):
+        """Newest vertex last, directions normalised, nothing reported but the answer."""
+        variants = [("vertices=[x.number for x in simplex]", "vertices=[x.number for x in reversed(simplex)]"),
+                    (SUPPORT, "w = support(scaled(-1 / length(v), v))"),
+                    ("    print(json.dumps(message), flush=True)", '    if message["type"] in ("support", "result"): print(json.dumps(message), flush=True)')]
+        with tempfile.TemporaryDirectory() as folder:
+            for i, (old, new) in enumerate(variants):
+                self.assertIn(old, SOURCE)
+                path = pathlib.Path(folder, f"variant{i}.py")
+                path.write_text(SOURCE.replace(old, new, 1))
+                with self.subTest(new):
+                    self.clean_on_the_gallery(f"/usr/bin/python3 {path}")
+
     def test_cpp_kit_is_clean_on_the_gallery(self):
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run(["c++", "-std=c++17", "-O1", "-Wall", "-Wextra", "-Werror", str(KIT.parent / "gjk.cpp"), "-o", folder + "/gjk"], check=True)
