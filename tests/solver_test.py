@@ -169,6 +169,12 @@ class Solver(unittest.TestCase):
                 with self.subTest(new):
                     self.clean_on_the_gallery(f"/usr/bin/python3 {path}")
 
+    def test_muratoris_form_is_clean_on_the_gallery(self):
+        scenes = [s for s in sorted((ROOT / "recordings/gallery").glob("*.scene.json")) if '"dimension": 3' in s.read_text() and '"mesh"' not in s.read_text()]
+        self.assertGreater(len(scenes), 80)
+        for scene in scenes[:: 10 if "GJKDBG_PAIRS" in os.environ else 1]:
+            self.assertEqual(self.run_kit(scene, f"/usr/bin/python3 {ROOT / 'tests/muratori_solver.py'}"), [], scene.name)
+
     def test_cpp_kit_is_clean_on_the_gallery(self):
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run(["c++", "-std=c++17", "-O1", "-Wall", "-Wextra", "-Werror", str(KIT.parent / "gjk.cpp"), "-o", folder + "/gjk"], check=True)
