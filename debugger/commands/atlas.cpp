@@ -23,9 +23,7 @@ struct AtlasCommand {
 
   int run() const {
     const auto kept = gate.empty() ? std::map<std::pair<std::string, std::string>, int>() : read_gate(gate);
-    std::error_code error;
-    std::filesystem::create_directories(output, error);
-    if (error) throw Error("cannot-write", "cannot be made: " + error.message(), output);
+    make_folder(output);
     LabProgress progress;
     const Atlas atlas = make_atlas(quick, std::ref(progress));
     const std::filesystem::path folder(output);

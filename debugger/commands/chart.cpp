@@ -49,9 +49,7 @@ struct ChartCommand {
   std::string output = "chart";
 
   int run() const {
-    std::error_code error;
-    std::filesystem::create_directories(output, error);
-    if (error) throw Error("cannot-write", "cannot be made: " + error.message(), output);
+    make_folder(output);
     LabProgress progress;
     const Chart chart = make_chart(quick, std::ref(progress));
     const std::filesystem::path folder(output);

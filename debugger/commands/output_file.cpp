@@ -66,4 +66,10 @@ void write_output(const std::string& path, std::string_view text) {
   file.commit();
 }
 
+void make_folder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw Error("cannot-write", "cannot be made: " + error.message(), path);
+}
+
 }  // namespace gjkdbg

@@ -29,4 +29,7 @@ class OutputFile {
 /// All of it, at once.
 void write_output(const std::string& path, std::string_view text);
 
+/// A folder and those above it, if they are not there. Throws Error.
+void make_folder(const std::string& path);
+
 }  // namespace gjkdbg

@@ -125,7 +125,7 @@ struct Sweep {
       }
       if (!smaller) break;
     }
-    std::filesystem::create_directories(output);
+    make_folder(output);
     const std::string file = (std::filesystem::path(output) / (scene.scene.name + ".scene.json")).string();
     write_output(file, pretty_json(scene_to_json(scene)) + "\n");
     return file;
