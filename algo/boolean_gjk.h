@@ -211,6 +211,8 @@ class InflatedDifference {
 
   explicit InflatedDifference(Difference& cores) : cores_(cores) {}
 
+  S rounding_floor() const { return cores_.rounding_floor() + 4 * std::numeric_limits<S>::epsilon() * cores_.radius(); }
+
   SupportPoint<D, S> support(const V& d) {
     auto point = cores_.support(d);
     const V n = d.stableNormalized();

@@ -12,7 +12,9 @@
 #pragma once
 
 #include <limits>
+#include <utility>
 
+#include "algo/settings.h"
 #include "algo/signed_volumes.h"
 #include "algo/simplex.h"
 #include "algo/trace.h"
@@ -34,6 +36,8 @@ struct GjkOptions {
   Vector<D, S> direction = Vector<D, S>::Unit(0);  ///< first search direction, not zero
   bool accelerated = false;  ///< Nesterov momentum on the directions, until it no longer helps
   bool normalised = false;   ///< of the momentum: for polytopes
+  Acceleration acceleration = Acceleration::nesterov;
+  Stopping stopping = Stopping::bounds;
 };
 
 template <int D, class S>
@@ -106,9 +110,19 @@ class Gjk {
   /// Montaut et al. 2024, algorithm 3: with m = (k + 1) / (k + 3), y = m v + (1 - m) s (s the last support), the direction moves to
   /// m d + (1 - m) y. For polytopes v and d enter with length 1, or the momentum of the far start outlives its use.
   V accelerated_direction() {
+    if (options_.acceleration == Acceleration::polyak) return polyak_direction();
     const S m = static_cast<S>(result_.iterations + 1) / static_cast<S>(result_.iterations + 3);
     const V y = options_.normalised ? V(m * result_.v / result_.distance + (1 - m) * momentum_.stableNormalized()) : V(m * result_.v + (1 - m) * last_);
     momentum_ = m * momentum_ + (1 - m) * y;
+    if (momentum_.isZero(0)) accelerating_ = false, momentum_ = result_.v;
+    return -momentum_;
+  }
+
+  /// Heavy ball: m = 1 / (k + 1), the direction moves to m d + (1 - m) v. (The paper prints Nesterov's m; this is the one of its program,
+  /// and the one whose figures it shows.)
+  V polyak_direction() {
+    const S m = S(1) / static_cast<S>(result_.iterations + 1);
+    momentum_ = m * momentum_ + (1 - m) * result_.v;
     if (momentum_.isZero(0)) accelerating_ = false, momentum_ = result_.v;
     return -momentum_;
   }
@@ -166,8 +180,30 @@ class Gjk {
   bool proven(const Point& point) {
     if (options_.goal == GjkGoal::intersect && result_.lower_bound > difference_.radius())
       return end_as(GjkStatus::separated);
-    if (result_.distance - plane_ <= options_.tolerance * result_.distance + floor_) return end_as(GjkStatus::converged);
+    const bool met = result_.distance - plane_ <= options_.tolerance * result_.distance + floor_;
+    if (options_.stopping != Stopping::bounds) {
+      if (rule_met(point)) return end_as(met ? GjkStatus::converged : GjkStatus::rule_met);
+    } else if (met) {
+      return end_as(GjkStatus::converged);
+    }
     if (result_.simplex.holds(point.w)) return end_as(GjkStatus::stalled);
+    return false;
+  }
+
+  /// Other libraries' rules, as their sources have them (see Stopping); v.w and |v|^2 are not yet those of the next simplex.
+  bool rule_met(const Point& point) {
+    constexpr S epsilon = std::numeric_limits<S>::epsilon();
+    const S gap = v_squared_ - result_.v.dot(point.w);
+    switch (options_.stopping) {
+      case Stopping::van_den_bergen: return result_.distance - std::max(S(0), result_.lower_bound + floor_) <= options_.tolerance * result_.distance;
+      case Stopping::bullet: return gap <= v_squared_ * (std::is_same_v<S, float> ? S(1e-6) : S(1e-12));
+      case Stopping::jolt: {
+        const S before = std::exchange(last_squared_, v_squared_);
+        return before - v_squared_ <= epsilon * before;
+      }
+      case Stopping::opengjk: return gap <= S(1e4) * epsilon * v_squared_ || gap < S(1e2) * epsilon || result_.iterations >= 25;
+      case Stopping::bounds: break;
+    }
     return false;
   }
 
@@ -219,6 +255,7 @@ class Gjk {
   const S floor_;
   GjkResult<D, S> result_;
   S v_squared_ = std::numeric_limits<S>::infinity();
+  S last_squared_ = std::numeric_limits<S>::max();
   S plane_ = 0;
   bool enclosed_ = false;
   int steps_on_the_spot_ = 0;

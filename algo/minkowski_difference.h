@@ -92,6 +92,11 @@ class MinkowskiDifference {
     return point;
   }
 
+  /// The difference of the same bodies with body 1 moved by an offset in body 0's frame.
+  MinkowskiDifference moved(const V& offset) const { return MinkowskiDifference(a_, b_, {rotation_, position_ + offset}); }
+  /// A point inside: of a flat difference, in its plane.
+  V center() const { return a_.center() - (rotation_ * b_.center() + position_); }
+  const Matrix<D, S>& rotation() const { return rotation_; }  ///< body 1's axes in body 0's
   int support_calls() const { return calls_; }
   /// Sum of the radii around the cores: the bodies' difference is the cores' plus a ball of this radius.
   S radius() const { return static_cast<S>(a_.radius() + b_.radius()); }

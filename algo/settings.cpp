@@ -24,11 +24,16 @@ double default_tolerance(const Scene& scene, const Settings& s) {
 
 [[noreturn]] void refuse(const std::string& message, const char* where) { throw Error("unsupported-method", message, where); }
 
-/// What the contract names and this version does not have yet.
-void refuse_missing(const Settings& s) {
-  const std::string name(method_names[static_cast<std::size_t>(s.name)]);
-  if (s.name == MethodName::mpr || s.name == MethodName::sat) refuse("method \"" + name + "\" is not available yet", "/method/name");
-  if (s.penetration == Penetration::mpr) refuse("penetration \"mpr\" is not available yet", "/method/penetration");
+bool has_corners(const Shape& shape) {
+  if (const Sum* sum = std::get_if<Sum>(&shape.geometry)) return has_corners(*sum->first) && has_corners(*sum->second);
+  return !curved(shape);
+}
+
+/// SAT needs faces and edges.
+void check_polytopes(const Scene& scene) {
+  for (const Body& body : scene.bodies)
+    if (!has_corners(body.shape))
+      refuse("method \"sat\" needs polytopes with or without a radius; body \"" + body.name + "\" is a " + type_name(body.shape, scene.dimension), "/method/name");
 }
 
 void check_numbers(const Settings& s, int dimension) {
@@ -50,12 +55,14 @@ Settings resolve_settings(const Method& method, const Scene& scene) {
   Settings s;
   s.name = method.name.value_or(s.name);
   s.closest_point = method.closest_point.value_or(s.closest_point);
-  s.penetration = method.penetration.value_or(s.penetration);
+  s.penetration = method.penetration.value_or(s.name == MethodName::mpr ? Penetration::mpr : s.penetration);
+  s.stopping = method.stopping.value_or(s.stopping);
+  s.acceleration = method.acceleration.value_or(s.acceleration);
   s.scalar = method.scalar.value_or(s.scalar);
   s.tolerance = method.tolerance.value_or(default_tolerance(scene, s));
   s.max_iterations = method.max_iterations.value_or(s.max_iterations);
   s.initial_direction = method.initial_direction;
-  refuse_missing(s);
+  if (s.name == MethodName::sat) check_polytopes(scene);
   check_numbers(s, scene.dimension);
   if (s.name == MethodName::gjk_boolean && scene.query != Query::intersect)
     refuse("method \"gjk-boolean\" answers only the query \"intersect\"", "/method/name");

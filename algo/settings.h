@@ -16,6 +16,20 @@ inline constexpr std::array<std::string_view, 5> method_names{"gjk", "gjk-boolea
 enum class ClosestPoint { signed_volumes, johnson, voronoi };
 inline constexpr std::array<std::string_view, 3> closest_point_names{"signed-volumes", "johnson", "voronoi"};
 
+/// When GJK's loop ends for lack of progress. All but `bounds` are other libraries' rules, with their constants, for comparison.
+enum class Stopping {
+  bounds,          ///< the plane across v and |v| agree within the tolerance or the rounding floor
+  van_den_bergen,  ///< |v| - best plane so far <= tolerance |v| (van den Bergen 1999)
+  bullet,          ///< |v|^2 - v.w <= 1e-12 |v|^2 (float: 1e-6)
+  jolt,            ///< |v|^2 fell by no more than epsilon times itself
+  opengjk,         ///< |v|^2 - v.w <= 1e4 epsilon |v|^2, or < 1e2 epsilon; 25 iterations at most
+};
+inline constexpr std::array<std::string_view, 5> stopping_names{"bounds", "van-den-bergen", "bullet", "jolt", "opengjk"};
+
+/// The momentum of gjk-accelerated (Montaut et al. 2024, section IV).
+enum class Acceleration { nesterov, polyak };
+inline constexpr std::array<std::string_view, 2> acceleration_names{"nesterov", "polyak"};
+
 /// Who takes over when the cores overlap.
 enum class Penetration { epa, mpr, none };
 inline constexpr std::array<std::string_view, 3> penetration_names{"epa", "mpr", "none"};
@@ -29,6 +43,8 @@ struct Method {
   std::optional<ClosestPoint> closest_point;
   std::optional<Penetration> penetration;
   std::optional<Scalar> scalar;
+  std::optional<Stopping> stopping;
+  std::optional<Acceleration> acceleration;
   std::optional<double> tolerance;        ///< relative gap between the bounds at which to stop, in (0, 1)
   std::optional<int> max_iterations;      ///< of each phase, >= 1
   std::optional<AnyVector> initial_direction;  ///< world frame, not zero
@@ -40,6 +56,8 @@ struct Settings {
   ClosestPoint closest_point = ClosestPoint::signed_volumes;
   Penetration penetration = Penetration::epa;
   Scalar scalar = Scalar::double_precision;
+  Stopping stopping = Stopping::bounds;
+  Acceleration acceleration = Acceleration::nesterov;
   double tolerance = 1e-12;
   int max_iterations = 512;
   std::optional<AnyVector> initial_direction;  ///< unset: from body 0's reference point towards body 1's

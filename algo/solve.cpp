@@ -33,13 +33,16 @@ Result solve_convex(const Shape& shape_a, const Shape& shape_b, const Scene& sce
   const double scale = working_scale(std::max({size_of(shape_a), size_of(shape_b), between}), safe_range<S>);
   const Convex<D, S> a(shape_a, scale), b(shape_b, scale);
   thread_local Workspace<D, S> workspace;
+  std::optional<Features> features_a, features_b;
+  if (settings.name == MethodName::sat) features_a = features_of(shape_a, D), features_b = features_of(shape_b, D);
+  const Features *fa = features_a ? &*features_a : nullptr, *fb = features_b ? &*features_b : nullptr;
   if constexpr (std::is_same_v<Sink, NoSink>) {
     NoTrace trace;
-    return PairSolver<D, S, NoTrace>(a, b, pose_a, pose_b, scale, settings, workspace, trace).run(scene.query);
+    return PairSolver<D, S, NoTrace>(a, b, pose_a, pose_b, scale, settings, workspace, trace, fa, fb).run(scene.query);
   } else {
     const WorkingFrame<D, S> frame(pose_a, a.reference(), scale);
     WorldTrace<D, S> trace(frame, numbers, sink);
-    return PairSolver<D, S, WorldTrace<D, S>>(a, b, pose_a, pose_b, scale, settings, workspace, trace).run(scene.query);
+    return PairSolver<D, S, WorldTrace<D, S>>(a, b, pose_a, pose_b, scale, settings, workspace, trace, fa, fb).run(scene.query);
   }
 }
 

@@ -18,27 +18,46 @@ using PolytopeSeeded = gjkdbg::PolytopeSeeded<AnyVector, Viewed>;
 using FaceChosen = gjkdbg::FaceChosen<AnyVector, Viewed>;
 using PolytopeGrown = gjkdbg::PolytopeGrown<AnyVector, Viewed>;
 using EpaEnded = gjkdbg::EpaEnded<AnyVector, Viewed>;
+using MprBegan = gjkdbg::MprBegan<AnyVector, Viewed>;
+using PortalFound = gjkdbg::PortalFound<AnyVector, Viewed>;
+using MprEnded = gjkdbg::MprEnded<AnyVector, Viewed>;
+using SatBegan = gjkdbg::SatBegan<AnyVector, Viewed>;
+using AxisTested = gjkdbg::AxisTested<AnyVector, Viewed>;
+using SatEnded = gjkdbg::SatEnded<AnyVector, Viewed>;
 using Warning = gjkdbg::Warning<AnyVector, Viewed>;
 }  // namespace world
 
-/// A sink whose type is not known to the algorithms: one virtual call an event.
-class TraceSink {
+template <class Event>
+class SinkFor {
  public:
-  virtual ~TraceSink() = default;
-  virtual void operator()(const world::GjkBegan&) = 0;
-  virtual void operator()(const world::SupportQueried&) = 0;
-  virtual void operator()(const world::SimplexReduced&) = 0;
-  virtual void operator()(const world::GjkEnded&) = 0;
-  virtual void operator()(const world::PolytopeSeeded&) = 0;
-  virtual void operator()(const world::FaceChosen&) = 0;
-  virtual void operator()(const world::PolytopeGrown&) = 0;
-  virtual void operator()(const world::EpaEnded&) = 0;
-  virtual void operator()(const world::Warning&) = 0;
+  virtual ~SinkFor() = default;
+  virtual void operator()(const Event&) = 0;
+};
+template <class List>
+class SinkForAll;
+template <class... Events>
+class SinkForAll<EventList<Events...>> : public SinkFor<Events>... {
+ public:
+  using SinkFor<Events>::operator()...;
+};
+
+/// A sink whose type is not known to the algorithms: one virtual call an event, an operator() for each kind.
+using TraceSink = SinkForAll<AllEvents<AnyVector, Viewed>>;
+
+/// A TraceSink that hands every event to one function template, `Self::take`.
+template <class Self, class Base = TraceSink, class List = AllEvents<AnyVector, Viewed>>
+class SinkTaking;
+template <class Self, class Base>
+class SinkTaking<Self, Base, EventList<>> : public Base {};
+template <class Self, class Base, class Event, class... Rest>
+class SinkTaking<Self, Base, EventList<Event, Rest...>> : public SinkTaking<Self, Base, EventList<Rest...>> {
+ public:
+  using SinkTaking<Self, Base, EventList<Rest...>>::operator();
+  void operator()(const Event& event) override { static_cast<Self*>(this)->take(event); }
 };
 
 /// Fills in the defaults for a scene. Throws Error (place: pointer relative to the method, "/name", …) for values out of
-/// range and for combinations that do not exist, among them what a later version will bring: methods not built yet,
-/// and the queries cast and simulate.
+/// range and for combinations that do not exist, among them what a later version will bring: the queries cast and simulate.
 Settings resolve_settings(const Method& method, const Scene& scene);
 
 /// Solves the scene's query for its two bodies. The scene must be valid (`shapes/scene_check.h` or the reader of recordings/).

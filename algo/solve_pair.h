@@ -5,13 +5,17 @@
 //   distance      the distance, or proof of overlap    never
 //   penetration   the distance of the cores            when the cores overlap
 //   contact       as penetration, then the contact points (algo/contact.h)
+//
+// MPR and SAT tell how deep, but not how far: where they find a gap and its length is asked for, GJK measures it.
 #pragma once
 
 #include "algo/boolean_gjk.h"
 #include "algo/epa.h"
 #include "algo/gjk.h"
 #include "algo/johnson.h"
+#include "algo/mpr.h"
 #include "algo/result.h"
+#include "algo/sat.h"
 #include "algo/voronoi.h"
 #include "algo/world_trace.h"
 
@@ -31,13 +35,16 @@ class PairSolver {
  public:
   /// The working frame's lengths are the world's times `scale`, as in the shapes. Keeps references.
   PairSolver(const A& a, const B& b, const Pose& pose_a, const Pose& pose_b, double scale, const Settings& settings,
-             Workspace<D, S>& workspace, Trace& trace)
+             Workspace<D, S>& workspace, Trace& trace, const Features* features_a = nullptr, const Features* features_b = nullptr)
       : difference_(a, b, relative_pose<D, S>(pose_a, a.reference(), pose_b, b.reference(), scale)),
         frame_(pose_a, a.reference(), scale), settings_(settings), workspace_(workspace), trace_(trace),
-        radius_(static_cast<double>(difference_.radius())), polytopes_(a.polytope() && b.polytope()) {}
+        radius_(static_cast<double>(difference_.radius())), polytopes_(a.polytope() && b.polytope()),
+        features_a_(features_a), features_b_(features_b) {}
 
   Result run(Query query) {
     if (settings_.name == MethodName::gjk_boolean) return boolean();
+    if (settings_.name == MethodName::mpr && mpr_decides(query)) return counted();
+    if (settings_.name == MethodName::sat && sat_decides(query)) return counted();
     GjkOptions<D, S> options;
     options.goal = query == Query::intersect  ? GjkGoal::intersect
                    : query == Query::distance ? GjkGoal::distance
@@ -47,9 +54,11 @@ class PairSolver {
     options.direction = first_direction();
     options.accelerated = settings_.name == MethodName::gjk_accelerated;
     options.normalised = polytopes_;
+    options.acceleration = settings_.acceleration;
+    options.stopping = settings_.stopping;
     gjk_ = run_gjk(options);
     result_.status = gjk_status_names[static_cast<std::size_t>(gjk_.status)];
-    result_.iterations = gjk_.iterations;
+    result_.iterations += gjk_.iterations;
     if (query == Query::intersect) {
       result_.intersecting = overlapping();
     } else if (query == Query::distance) {
@@ -57,8 +66,7 @@ class PairSolver {
     } else {
       penetration();
     }
-    result_.support_calls = difference_.support_calls();
-    return result_;
+    return counted();
   }
 
  private:
@@ -68,6 +76,11 @@ class PairSolver {
       case ClosestPoint::voronoi: return gjk<VoronoiRegions<D, S>>(difference_, options, trace_);
       default: return gjk<SignedVolumes<D, S>>(difference_, options, trace_);
     }
+  }
+
+  Result counted() {
+    result_.support_calls = difference_.support_calls() + more_calls_;
+    return result_;
   }
 
   V first_direction() const {
@@ -110,6 +123,10 @@ class PairSolver {
     const bool undecided = gjk_.status == GjkStatus::stalled && gjk_.lower_bound <= 0;
     if (!gjk_.cores_overlap() && !undecided) return separated();
     if (settings_.penetration == Penetration::none) return overlap_only();
+    if (settings_.penetration == Penetration::mpr) {
+      const MprResult<D, S> found = run_mpr(true);
+      if (found.decided) return portal_depth(found);
+    }
     EpaOptions<S> options;
     options.tolerance = static_cast<S>(settings_.tolerance);
     options.max_iterations = settings_.max_iterations;
@@ -119,6 +136,86 @@ class PairSolver {
     set_bounds(-found.upper_bound, -found.lower_bound);
     const bool flat = found.face < 0;
     witnesses(flat ? gjk_.simplex.point_a() : found.point_a, flat ? gjk_.simplex.point_b() : found.point_b, found.normal, -found.depth);
+  }
+
+  // --- MPR and SAT ------------------------------------------------------------------------------------------------
+
+  MprResult<D, S> run_mpr(bool depth) {
+    InflatedDifference<Difference> bodies(difference_);
+    MprOptions<D, S> options;
+    options.tolerance = static_cast<S>(settings_.tolerance);
+    options.max_iterations = settings_.max_iterations;
+    options.depth = depth;
+    options.interior = difference_.center();
+    const MprResult<D, S> found = mpr(bodies, options, trace_);
+    result_.status = mpr_status_names[static_cast<std::size_t>(found.status)];
+    result_.iterations += found.iterations;
+    return found;
+  }
+
+  /// False: apart, and the distance is asked for, or not decided.
+  bool mpr_decides(Query query) {
+    const bool depth = query == Query::penetration || query == Query::contact;
+    const MprResult<D, S> found = run_mpr(depth && settings_.penetration == Penetration::mpr);
+    if (!found.decided || (!found.overlapping() && query != Query::intersect)) return false;
+    result_.intersecting = found.overlapping();
+    if (query == Query::intersect) return true;
+    if (!depth) return overlapping_at(found.point_a, found.point_b), true;
+    if (settings_.penetration == Penetration::epa) return false;  // GJK's simplex is where EPA starts
+    if (settings_.penetration == Penetration::none) return overlap_only(), true;
+    portal_depth(found);
+    return true;
+  }
+
+  void portal_depth(const MprResult<D, S>& found) {
+    witnesses(found.point_a, found.point_b, found.normal, S(static_cast<double>(-found.depth) + radius_), true);
+    result_.intersecting = found.overlapping();
+    result_.lower_bound = length(-static_cast<double>(found.upper_bound));
+    result_.upper_bound = length(-static_cast<double>(found.lower_bound));
+  }
+
+  /// False: apart, and the distance is asked for, or the theorem does not hold.
+  bool sat_decides(Query query) {
+    Sat<Difference, Trace> sat(difference_, *features_a_, *features_b_, difference_.rotation(), trace_);
+    if (!sat.spans()) {
+      if constexpr (traced<Trace>)
+        trace_(Warning<V, Viewed>{"flat-difference", "The difference of the bodies has no volume: faces and edges alone do not decide. GJK does."});
+      return false;
+    }
+    const bool yes_or_no = query == Query::intersect;
+    const SatResult<D, S> found = sat.run(yes_or_no ? difference_.radius() : S(0));
+    result_.iterations += found.iterations;
+    result_.status = sat_status_names[static_cast<std::size_t>(found.status)];
+    const bool apart = found.status == SatStatus::separated;
+    if (apart && !(yes_or_no && -static_cast<double>(found.depth) > radius_)) return false;
+    result_.intersecting = !apart;
+    if (yes_or_no) return true;
+    const GjkResult<D, S> touching = push_apart(found);
+    const V a = touching.simplex.point_a(), b = touching.simplex.point_b() - push_;
+    if (query == Query::distance) return overlapping_at(a, b), true;
+    set_bounds(-found.depth - difference_.rounding_floor(), -found.depth + difference_.rounding_floor());
+    witnesses(a, b, found.normal, -found.depth);
+    return true;
+  }
+
+  /// With body 1 moved out along the normal, by the depth and some more, the closest points are the witnesses.
+  GjkResult<D, S> push_apart(const SatResult<D, S>& found) {
+    const S beyond = difference_.rounding_floor() / (8 * std::numeric_limits<S>::epsilon());
+    push_ = found.normal * (found.depth + beyond);
+    Difference apart = difference_.moved(push_);
+    GjkOptions<D, S> options;
+    options.direction = V(-found.normal);
+    NoTrace silent;
+    const auto nearest = gjk<SignedVolumes<D, S>>(apart, options, silent);
+    more_calls_ = apart.support_calls();
+    return nearest;
+  }
+
+  /// The answer of a distance query to an overlap: a point of both, or as near to that as the method knows.
+  void overlapping_at(const V& a, const V& b) {
+    result_.intersecting = true;
+    result_.signed_distance = result_.lower_bound = result_.upper_bound = 0;
+    result_.witness_a = result_.witness_b = frame_.point(V((a + b) / 2));
   }
 
   void overlap_only() {
@@ -137,11 +234,13 @@ class PairSolver {
 
   /// From core points a, b (b - a along the normal, up to rounding) and the cores' signed distance to those of the bodies.
   /// Both are set from their middle, so that b - a = signed distance * normal holds to the last bit or two.
-  void witnesses(const V& a, const V& b, const V& normal, S core_distance) {
+  /// `inflated`: a and b are of the bodies already.
+  void witnesses(const V& a, const V& b, const V& normal, S core_distance, bool inflated = false) {
     const double distance = static_cast<double>(core_distance) - radius_;
     const Vector<D, double> n = frame_.direction(normal), middle = frame_.point(V((a + b) / 2));
-    const double ra = static_cast<double>(difference_.radius_a()), rb = static_cast<double>(difference_.radius_b());
-    result_.signed_distance = length(distance);
+    const double ra = static_cast<double>(inflated ? radius_ / 2 : difference_.radius_a());
+    const double rb = static_cast<double>(inflated ? radius_ / 2 : difference_.radius_b());
+    result_.signed_distance = length(distance) + 0.0;  // no negative zero
     result_.intersecting = distance <= 0;
     result_.normal = n;
     result_.witness_a = middle - n * length(static_cast<double>(core_distance) / 2 - ra);
@@ -157,6 +256,9 @@ class PairSolver {
   Trace& trace_;
   const double radius_;
   const bool polytopes_;
+  const Features *features_a_, *features_b_;  ///< of SAT
+  V push_ = V::Zero();
+  int more_calls_ = 0;
   GjkResult<D, S> gjk_;
   Result result_;
 };

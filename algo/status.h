@@ -15,9 +15,10 @@ enum class GjkStatus {
   stalled,          ///< no progress is possible in this precision; the bounds say how much is known
   iteration_limit,  ///< the bounds say how much is known
   aborted,          ///< another implementation's run that ended without an answer; ours never does
+  rule_met,         ///< another stopping rule than the bounds' ended it; the bounds say how much is known
 };
-inline constexpr std::array<std::string_view, 8> gjk_status_names{
-    "converged", "separated", "within_radius", "enclosed", "touching", "stalled", "iteration_limit", "aborted"};
+inline constexpr std::array<std::string_view, 9> gjk_status_names{
+    "converged", "separated", "within_radius", "enclosed", "touching", "stalled", "iteration_limit", "aborted", "rule_met"};
 
 enum class EpaStatus {
   converged,        ///< the bounds of the depth agree within the tolerance or the rounding floor
@@ -29,5 +30,21 @@ enum class EpaStatus {
 };
 inline constexpr std::array<std::string_view, 6> epa_status_names{"converged", "flat", "separated", "stalled",
                                                                   "iteration_limit", "aborted"};
+
+enum class MprStatus {
+  converged,        ///< the bodies overlap; the portal lies on the boundary, within the tolerance or the rounding floor
+  overlapping,      ///< the bodies overlap; only that was asked
+  separated,        ///< a support plane has the origin on its far side
+  flat,             ///< the difference has no volume to look from: no answer
+  stalled,          ///< no progress is possible in this precision; the portal so far is the answer
+  iteration_limit,  ///< the portal so far is the answer, if it has passed the origin
+};
+inline constexpr std::array<std::string_view, 6> mpr_status_names{"converged", "overlapping", "separated", "flat", "stalled", "iteration_limit"};
+
+enum class SatStatus {
+  overlapping,  ///< no axis separates; the least overlap is the depth
+  separated,    ///< the last axis separates
+};
+inline constexpr std::array<std::string_view, 2> sat_status_names{"overlapping", "separated"};
 
 }  // namespace gjkdbg

@@ -38,8 +38,12 @@ template <class Store, class T>
 using ListOf = typename Store::template List<T>;
 
 /// Where a support query came from.
-enum class Phase { gjk, seed, epa };
-inline constexpr std::array<std::string_view, 3> phase_names{"gjk", "seed", "epa"};
+enum class Phase { gjk, seed, epa, mpr, sat };
+inline constexpr std::array<std::string_view, 5> phase_names{"gjk", "seed", "epa", "mpr", "sat"};
+
+/// What a separating axis was taken from.
+enum class AxisSource { face_a, face_b, edge_pair };
+inline constexpr std::array<std::string_view, 3> axis_source_names{"face_a", "face_b", "edge_pair"};
 
 template <class Event, class Member>
 struct Field {
@@ -184,6 +188,91 @@ struct EpaEnded {
   }
 };
 
+/// MPR starts at a point inside the difference, from which it looks towards the origin.
+template <class V, class Store>
+struct MprBegan {
+  static constexpr std::string_view kind = "mpr_began";
+  V interior;  ///< a - b of two inner points
+  static constexpr auto fields() { return std::tuple(field("interior", &MprBegan::interior)); }
+};
+
+/// The portal: D vertices of the difference that the ray from the interior point through the origin passes between. `normal` is
+/// a unit vector away from the interior point, `distance` the signed distance of the portal's plane from the origin (negative:
+/// the origin is still beyond it). The bounds are of the signed distance of the bodies; null where nothing is known.
+template <class V, class Store>
+struct PortalFound {
+  static constexpr std::string_view kind = "portal_found";
+  int iteration = 0;
+  ListOf<Store, int> vertices;
+  V normal;
+  double distance = 0;
+  double lower_bound = 0, upper_bound = 0;
+  static constexpr auto fields() {
+    return std::tuple(field("iteration", &PortalFound::iteration), field("vertices", &PortalFound::vertices),
+                      field("normal", &PortalFound::normal), field("distance", &PortalFound::distance),
+                      field("lower_bound", &PortalFound::lower_bound), field("upper_bound", &PortalFound::upper_bound));
+  }
+};
+
+/// `normal` and `depth`: moving body 1 by depth * normal separates the bodies, though not always by the shortest way. Negative when
+/// `separated`: the bodies are at least that far apart.
+template <class V, class Store>
+struct MprEnded {
+  static constexpr std::string_view kind = "mpr_ended";
+  int iteration = 0;
+  MprStatus status = MprStatus::converged;
+  V normal;
+  double depth = 0;
+  static constexpr auto fields() {
+    return std::tuple(field("iteration", &MprEnded::iteration), field("status", &MprEnded::status),
+                      field("normal", &MprEnded::normal), field("depth", &MprEnded::depth));
+  }
+};
+
+/// How many axes there are to test, by where they come from.
+template <class V, class Store>
+struct SatBegan {
+  static constexpr std::string_view kind = "sat_began";
+  int faces_a = 0, faces_b = 0, edge_pairs = 0;
+  static constexpr auto fields() {
+    return std::tuple(field("faces_a", &SatBegan::faces_a), field("faces_b", &SatBegan::faces_b),
+                      field("edge_pairs", &SatBegan::edge_pairs));
+  }
+};
+
+/// Along the unit axis `direction` (from body 0 towards body 1) the bodies are `distance` apart; negative: they overlap by
+/// that much. `vertex` is the support that says so. The bounds are of the bodies' signed distance after this axis.
+template <class V, class Store>
+struct AxisTested {
+  static constexpr std::string_view kind = "axis_tested";
+  int iteration = 0;
+  AxisSource source = AxisSource::face_a;
+  int vertex = -1;
+  V direction;
+  double distance = 0;
+  double lower_bound = 0, upper_bound = 0;
+  static constexpr auto fields() {
+    return std::tuple(field("iteration", &AxisTested::iteration), field("source", &AxisTested::source),
+                      field("vertex", &AxisTested::vertex), field("direction", &AxisTested::direction),
+                      field("distance", &AxisTested::distance), field("lower_bound", &AxisTested::lower_bound),
+                      field("upper_bound", &AxisTested::upper_bound));
+  }
+};
+
+/// `normal` is the axis of least overlap or, when `separated`, the axis that separates; `distance` as in AxisTested.
+template <class V, class Store>
+struct SatEnded {
+  static constexpr std::string_view kind = "sat_ended";
+  int iteration = 0;
+  SatStatus status = SatStatus::overlapping;
+  V normal;
+  double distance = 0;
+  static constexpr auto fields() {
+    return std::tuple(field("iteration", &SatEnded::iteration), field("status", &SatEnded::status),
+                      field("normal", &SatEnded::normal), field("distance", &SatEnded::distance));
+  }
+};
+
 template <class V, class Store>
 struct Warning {
   static constexpr std::string_view kind = "warning";
@@ -192,6 +281,16 @@ struct Warning {
     return std::tuple(field("code", &Warning::code), field("message", &Warning::message));
   }
 };
+
+template <class... Events>
+struct EventList {};
+
+/// Every kind of event: what a sink is asked to take and a recording can hold.
+template <class V, class Store>
+using AllEvents = EventList<GjkBegan<V, Store>, SupportQueried<V, Store>, SimplexReduced<V, Store>, GjkEnded<V, Store>,
+                            PolytopeSeeded<V, Store>, FaceChosen<V, Store>, PolytopeGrown<V, Store>, EpaEnded<V, Store>,
+                            MprBegan<V, Store>, PortalFound<V, Store>, MprEnded<V, Store>, SatBegan<V, Store>,
+                            AxisTested<V, Store>, SatEnded<V, Store>, Warning<V, Store>>;
 
 /// The sink that costs nothing.
 struct NoTrace {

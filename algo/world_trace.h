@@ -82,6 +82,30 @@ class WorldTrace {
     sink_(world::EpaEnded{e.iteration, e.status, face(e.face), frame_.direction(e.normal), length(e.depth)});
   }
 
+  void operator()(const MprBegan<V, Viewed>& e) { sink_(world::MprBegan{frame_.vector(e.interior)}); }
+
+  void operator()(const PortalFound<V, Viewed>& e) {
+    sink_(world::PortalFound{e.iteration, vertices(e.vertices), frame_.direction(e.normal), length(e.distance), length(e.lower_bound),
+                             length(e.upper_bound)});
+  }
+
+  void operator()(const MprEnded<V, Viewed>& e) {
+    sink_(world::MprEnded{e.iteration, e.status, frame_.direction(e.normal), length(e.depth)});
+  }
+
+  void operator()(const SatBegan<V, Viewed>& e) { sink_(world::SatBegan{e.faces_a, e.faces_b, e.edge_pairs}); }
+
+  void operator()(const AxisTested<V, Viewed>& e) {
+    sink_(world::AxisTested{e.iteration, e.source, vertex(e.vertex), frame_.direction(e.direction), length(e.distance),
+                            length(e.lower_bound), length(e.upper_bound)});
+  }
+
+  void operator()(const SatEnded<V, Viewed>& e) {
+    sink_(world::SatEnded{e.iteration, e.status, frame_.direction(e.normal), length(e.distance)});
+  }
+
+  void operator()(const Warning<V, Viewed>& e) { sink_(world::Warning{e.code, e.message}); }
+
  private:
   struct Faces {
     std::vector<std::vector<int>> vertices;

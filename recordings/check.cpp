@@ -162,6 +162,13 @@ struct Walk {
   void operator()(const recorded::FaceChosen& e) { (*run_epa)(e); }
   void operator()(const recorded::PolytopeGrown& e) { (*run_epa)(e); }
   void operator()(const recorded::EpaEnded& e) { (*run_epa)(e); }
+  /// Our own methods alone report these; the answer is judged at the end.
+  void operator()(const recorded::MprBegan&) {}
+  void operator()(const recorded::PortalFound&) {}
+  void operator()(const recorded::MprEnded&) {}
+  void operator()(const recorded::SatBegan&) {}
+  void operator()(const recorded::AxisTested& e) { best_plane = std::max(best_plane, e.distance + c.radius); }
+  void operator()(const recorded::SatEnded&) {}
   /// What `run` noted when a solver failed.
   void operator()(const recorded::Warning& e) {
     for (const char* code : {"timeout", "crash", "bad-message", "support-limit", "no-result"})

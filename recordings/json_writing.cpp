@@ -49,6 +49,9 @@ void append_value(std::string& out, const std::string& text) { append_string(out
 void append_value(std::string& out, Phase p) { append_string(out, phase_names[static_cast<std::size_t>(p)]); }
 void append_value(std::string& out, GjkStatus s) { append_string(out, gjk_status_names[static_cast<std::size_t>(s)]); }
 void append_value(std::string& out, EpaStatus s) { append_string(out, epa_status_names[static_cast<std::size_t>(s)]); }
+void append_value(std::string& out, MprStatus s) { append_string(out, mpr_status_names[static_cast<std::size_t>(s)]); }
+void append_value(std::string& out, SatStatus s) { append_string(out, sat_status_names[static_cast<std::size_t>(s)]); }
+void append_value(std::string& out, AxisSource s) { append_string(out, axis_source_names[static_cast<std::size_t>(s)]); }
 void append_value(std::string& out, const Edge& e) {
   out += '[';
   append_integer(out, e[0]);
@@ -158,6 +161,8 @@ void append_settings(std::string& out, const Settings& s) {
   name("closest_point", closest_point_names[static_cast<std::size_t>(s.closest_point)], false);
   name("penetration", penetration_names[static_cast<std::size_t>(s.penetration)], false);
   name("scalar", scalar_names[static_cast<std::size_t>(s.scalar)], false);
+  if (s.stopping != Stopping::bounds) name("stopping", stopping_names[static_cast<std::size_t>(s.stopping)], false);
+  if (s.acceleration != Acceleration::nesterov) name("acceleration", acceleration_names[static_cast<std::size_t>(s.acceleration)], false);
   append_key(out, "tolerance");
   append_number(out, s.tolerance);
   append_key(out, "max_iterations");

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -25,12 +26,22 @@ using PolytopeSeeded = gjkdbg::PolytopeSeeded<AnyVector, Owned>;
 using FaceChosen = gjkdbg::FaceChosen<AnyVector, Owned>;
 using PolytopeGrown = gjkdbg::PolytopeGrown<AnyVector, Owned>;
 using EpaEnded = gjkdbg::EpaEnded<AnyVector, Owned>;
+using MprBegan = gjkdbg::MprBegan<AnyVector, Owned>;
+using PortalFound = gjkdbg::PortalFound<AnyVector, Owned>;
+using MprEnded = gjkdbg::MprEnded<AnyVector, Owned>;
+using SatBegan = gjkdbg::SatBegan<AnyVector, Owned>;
+using AxisTested = gjkdbg::AxisTested<AnyVector, Owned>;
+using SatEnded = gjkdbg::SatEnded<AnyVector, Owned>;
 using Warning = gjkdbg::Warning<AnyVector, Owned>;
 }  // namespace recorded
 
-using Event = std::variant<recorded::GjkBegan, recorded::SupportQueried, recorded::SimplexReduced, recorded::GjkEnded,
-                           recorded::PolytopeSeeded, recorded::FaceChosen, recorded::PolytopeGrown,
-                           recorded::EpaEnded, recorded::Warning>;
+template <class List>
+struct VariantOf;
+template <class... Events>
+struct VariantOf<EventList<Events...>> {
+  using type = std::variant<Events...>;
+};
+using Event = VariantOf<AllEvents<AnyVector, Owned>>::type;
 
 /// "gjk_began", …
 std::string_view kind_name(const Event& event);
@@ -44,21 +55,38 @@ struct Recording {
 };
 
 /// Keeps every event of a run.
-class Recorder final : public TraceSink {
+class Recorder final : public SinkTaking<Recorder> {
  public:
-  void operator()(const world::GjkBegan&) override;
-  void operator()(const world::SupportQueried&) override;
-  void operator()(const world::SimplexReduced&) override;
-  void operator()(const world::GjkEnded&) override;
-  void operator()(const world::PolytopeSeeded&) override;
-  void operator()(const world::FaceChosen&) override;
-  void operator()(const world::PolytopeGrown&) override;
-  void operator()(const world::EpaEnded&) override;
-  void operator()(const world::Warning&) override;
+  template <template <class, class> class E>
+  void take(const E<AnyVector, Viewed>& event) {
+    E<AnyVector, Owned> kept;
+    keep_fields(event, kept);
+    events_.push_back(std::move(kept));
+  }
 
-  std::vector<Event> take() { return std::move(events_); }
+  std::vector<Event> take_all() { return std::move(events_); }
 
  private:
+  template <class T>
+  static void keep(const T& from, T& to) {
+    to = from;
+  }
+  static void keep(std::string_view from, std::string& to) { to = from; }
+  template <class From, class To>
+  static void keep(std::span<const From> from, std::vector<To>& to) {
+    to.resize(from.size());
+    for (std::size_t i = 0; i < from.size(); ++i) keep(from[i], to[i]);
+  }
+  static void keep(const FaceEvent<AnyVector, Viewed>& from, recorded::Face& to) { keep_fields(from, to); }
+
+  /// Both declare the same fields in the same order.
+  template <class From, class To>
+  static void keep_fields(const From& from, To& to) {
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+      (keep(from.*std::get<I>(From::fields()).member, to.*std::get<I>(To::fields()).member), ...);
+    }(std::make_index_sequence<std::tuple_size_v<decltype(From::fields())>>());
+  }
+
   std::vector<Event> events_;
 };
 

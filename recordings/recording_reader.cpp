@@ -39,6 +39,15 @@ struct FieldReader {
   void read(const Json& json, const Place& place, std::string_view, EpaStatus& s) const {
     s = static_cast<EpaStatus>(read_enum(json, place, epa_status_names));
   }
+  void read(const Json& json, const Place& place, std::string_view, MprStatus& s) const {
+    s = static_cast<MprStatus>(read_enum(json, place, mpr_status_names));
+  }
+  void read(const Json& json, const Place& place, std::string_view, SatStatus& s) const {
+    s = static_cast<SatStatus>(read_enum(json, place, sat_status_names));
+  }
+  void read(const Json& json, const Place& place, std::string_view, AxisSource& s) const {
+    s = static_cast<AxisSource>(read_enum(json, place, axis_source_names));
+  }
 
   void read(const Json& json, const Place& place, std::string_view, Edge& e) const {
     if (!json.is_array() || json.size() != 2) reject(place, "wrong-count", "must be a pair of vertices");

@@ -28,6 +28,8 @@ struct Apply {
       frame.simplex.insert(frame.simplex.begin(), e.vertex);
       frame.barycentric.clear();
       frame.closest.reset();
+    } else if (e.phase == Phase::mpr || e.phase == Phase::sat) {
+      frame.stage = e.phase == Phase::mpr ? Frame::Stage::mpr : Frame::Stage::sat;
     } else {
       frame.stage = e.phase == Phase::seed ? Frame::Stage::seed : Frame::Stage::epa;
       if (e.phase == Phase::seed) frame.seeds.push_back(e.vertex);
@@ -96,6 +98,45 @@ struct Apply {
     frame.stage = Frame::Stage::done;
   }
 
+  void operator()(const recorded::MprBegan& e) {
+    frame.stage = Frame::Stage::mpr;
+    frame.simplex.clear(), frame.barycentric.clear(), frame.closest.reset(), frame.lower_bound.reset(), frame.upper_bound.reset();
+    frame.interior = e.interior;
+    frame.direction = -e.interior, frame.answered = false;
+  }
+
+  void operator()(const recorded::PortalFound& e) {
+    frame.iteration = e.iteration;
+    frame.portal = e.vertices;
+    frame.direction = e.normal, frame.answered = false;
+    bounds(e.lower_bound, e.upper_bound);
+  }
+
+  void operator()(const recorded::MprEnded& e) {
+    frame.iteration = e.iteration;
+    frame.mpr_status = e.status;
+    frame.stage = Frame::Stage::done;
+    if (e.status != MprStatus::separated) frame.normal = e.normal, frame.depth = e.depth;
+  }
+
+  void operator()(const recorded::SatBegan&) {
+    frame = Frame{};
+    frame.step = step;
+    frame.stage = Frame::Stage::sat;
+  }
+
+  void operator()(const recorded::AxisTested& e) {
+    frame.iteration = e.iteration;
+    bounds(e.lower_bound, e.upper_bound);
+  }
+
+  void operator()(const recorded::SatEnded& e) {
+    frame.iteration = e.iteration;
+    frame.sat_status = e.status;
+    frame.stage = Frame::Stage::done;
+    if (e.status == SatStatus::overlapping) frame.normal = e.normal, frame.depth = -e.distance;
+  }
+
   void operator()(const recorded::Warning&) {}
 
  private:
@@ -137,7 +178,7 @@ void fill_vertices(Frame& frame, const Recording& recording, const std::map<int,
     frame.vertices[vertex] = {vertex, *(after - 1), e.a, e.b, e.w};
   };
   if (frame.newest) need(*frame.newest);
-  for (const auto* list : {&frame.simplex, &frame.dropped, &frame.seeds})
+  for (const auto* list : {&frame.simplex, &frame.dropped, &frame.seeds, &frame.portal})
     for (const int v : *list) need(v);
   for (const auto& [number, face] : frame.faces)
     for (const int v : face.vertices) need(v);

@@ -35,7 +35,7 @@ struct FrameFace {
 struct Frame {
   std::size_t step = 0;  ///< index of the event this frame follows
   int iteration = 0;
-  enum class Stage { before, gjk, seed, epa, done } stage = Stage::before;
+  enum class Stage { before, gjk, seed, epa, mpr, sat, done } stage = Stage::before;
 
   std::optional<AnyVector> direction;  ///< the latest search direction, or the one that comes next
   bool answered = false;               ///< whether `newest` is the support along `direction`
@@ -55,13 +55,18 @@ struct Frame {
   std::vector<Edge> horizon;               ///< of the event at `step`
   std::vector<int> added;                  ///< faces the event at `step` added
 
-  /// The vertices that simplex, seeds, dropped, newest, faces and removed refer to.
+  std::vector<int> portal;             ///< MPR: the portal's vertices
+  std::optional<AnyVector> interior;   ///< MPR: the point inside the difference that the ray starts from
+
+  /// The vertices that simplex, seeds, portal, dropped, newest, faces and removed refer to.
   std::map<int, FrameVertex> vertices;
 
   std::optional<GjkStatus> gjk_status;
   std::optional<EpaStatus> epa_status;
-  std::optional<AnyVector> normal;  ///< EPA's answer
-  std::optional<double> depth;      ///< EPA's answer
+  std::optional<MprStatus> mpr_status;
+  std::optional<SatStatus> sat_status;
+  std::optional<AnyVector> normal;  ///< EPA's, MPR's or SAT's answer
+  std::optional<double> depth;      ///< theirs too: of the bodies
   bool operator==(const Frame&) const = default;
 };
 

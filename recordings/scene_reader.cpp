@@ -19,6 +19,8 @@ Method read_method(const Json& json, const Place& place, int dimension) {
   if (const Json* j = o.optional("closest_point")) m.closest_point = static_cast<ClosestPoint>(read_enum(*j, o.at("closest_point"), closest_point_names));
   if (const Json* j = o.optional("penetration")) m.penetration = static_cast<Penetration>(read_enum(*j, o.at("penetration"), penetration_names));
   if (const Json* j = o.optional("scalar")) m.scalar = static_cast<Scalar>(read_enum(*j, o.at("scalar"), scalar_names));
+  if (const Json* j = o.optional("stopping")) m.stopping = static_cast<Stopping>(read_enum(*j, o.at("stopping"), stopping_names));
+  if (const Json* j = o.optional("acceleration")) m.acceleration = static_cast<Acceleration>(read_enum(*j, o.at("acceleration"), acceleration_names));
   if (const Json* j = o.optional("tolerance")) m.tolerance = read_number(*j, o.at("tolerance"));
   if (const Json* j = o.optional("max_iterations")) m.max_iterations = read_integer(*j, o.at("max_iterations"), 1, 1000000);
   if (const Json* j = o.optional("initial_direction"); j && !j->is_null())

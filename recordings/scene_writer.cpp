@@ -122,6 +122,8 @@ Json json_of(const Method& m) {
   if (m.closest_point) out["closest_point"] = closest_point_names[static_cast<std::size_t>(*m.closest_point)];
   if (m.penetration) out["penetration"] = penetration_names[static_cast<std::size_t>(*m.penetration)];
   if (m.scalar) out["scalar"] = scalar_names[static_cast<std::size_t>(*m.scalar)];
+  if (m.stopping) out["stopping"] = stopping_names[static_cast<std::size_t>(*m.stopping)];
+  if (m.acceleration) out["acceleration"] = acceleration_names[static_cast<std::size_t>(*m.acceleration)];
   if (m.tolerance) out["tolerance"] = *m.tolerance;
   if (m.max_iterations) out["max_iterations"] = *m.max_iterations;
   if (m.initial_direction) out["initial_direction"] = json_of(*m.initial_direction);

@@ -40,6 +40,10 @@ class Convex {
     return std::visit([&](const auto& core) { return core.support(direction, hint); }, core_);
   }
 
+  /// A point inside the core (of a flat one, in its plane), relative to `reference()`.
+  Vector<D, S> center() const {
+    return std::visit([](const auto& core) { return core.center(); }, core_);
+  }
   const Core& core() const { return core_; }
   const Vector<D, double>& reference() const { return reference_; }  ///< of the core, in the body's frame
   double radius() const { return radius_; }                          ///< of the ball around the core
@@ -57,6 +61,11 @@ class Convex {
   void set(const Geometry& geometry, double scale);
   void set_vertices(std::vector<Vector<D, double>> points, double scale);
 };
+
+template <int D, class S>
+Vector<D, S> SumCore<D, S>::center() const {
+  return first->center() + second->center();
+}
 
 template <int D, class S>
 Vector<D, S> SumCore<D, S>::support(const Vector<D, S>& d, int& hint) const {

@@ -20,6 +20,7 @@ namespace gjkdbg {
 /// The core of a sphere: its centre.
 template <int D, class S>
 struct PointCore {
+  Vector<D, S> center() const { return Vector<D, S>::Zero(); }
   Vector<D, S> support(const Vector<D, S>&, int&) const { return Vector<D, S>::Zero(); }
 };
 
@@ -28,6 +29,7 @@ template <int D, class S>
 struct SegmentCore {
   int axis;
   S half_height;
+  Vector<D, S> center() const { return Vector<D, S>::Zero(); }
   Vector<D, S> support(const Vector<D, S>& d, int&) const {
     Vector<D, S> s = Vector<D, S>::Zero();
     s[axis] = d[axis] < 0 ? -half_height : half_height;
@@ -39,6 +41,7 @@ struct SegmentCore {
 template <int D, class S>
 struct BoxCore {
   Vector<D, S> min, max;
+  Vector<D, S> center() const { return min + (max - min) / 2; }
   Vector<D, S> support(const Vector<D, S>& d, int&) const {
     Vector<D, S> s;
     for (int i = 0; i < D; ++i) s[i] = d[i] < 0 ? min[i] : max[i];
@@ -64,6 +67,7 @@ template <class S>
 struct CylinderCore {
   int axis;
   S radius, half_height;
+  Vector<3, S> center() const { return Vector<3, S>::Zero(); }
   Vector<3, S> support(const Vector<3, S>& d, int&) const {
     Vector<3, S> s;
     Around<S>(d, axis).on_circle(d, radius, s);
@@ -80,6 +84,7 @@ template <class S>
 struct ConeCore {
   int axis;
   S radius, half_height;
+  Vector<3, S> center() const { return Vector<3, S>::Unit(axis) * (-half_height / 2); }
   Vector<3, S> support(const Vector<3, S>& d, int&) const {
     Vector<3, S> s = Vector<3, S>::Zero();
     const Around<S> around(d, axis);
@@ -97,6 +102,7 @@ struct ConeCore {
 template <int D, class S>
 struct EllipsoidCore {
   Vector<D, S> radii;
+  Vector<D, S> center() const { return Vector<D, S>::Zero(); }
   Vector<D, S> support(const Vector<D, S>& d, int&) const {
     const Vector<D, S> stretched = radii.cwiseProduct(d);
     const S length = std::sqrt(stretched.dot(stretched));
@@ -105,10 +111,18 @@ struct EllipsoidCore {
   }
 };
 
+template <class V>
+V mean_of(const std::vector<V>& points) {
+  V sum = V::Zero();
+  for (const V& p : points) sum += p;
+  return sum / static_cast<typename V::Scalar>(points.size());
+}
+
 /// Few vertices: look at all of them.
 template <int D, class S>
 struct VerticesCore {
   std::vector<Vector<D, S>> vertices;
+  Vector<D, S> center() const { return mean_of(vertices); }
   Vector<D, S> support(const Vector<D, S>& d, int&) const {
     const Vector<D, S>* best = vertices.data();
     S best_dot = best->dot(d);
@@ -125,6 +139,7 @@ struct VerticesCore {
 template <int D, class S>
 struct HullCore {
   std::vector<Vector<D, S>> vertices;
+  Vector<D, S> center() const { return mean_of(vertices); }
   std::vector<int> first_neighbour;  ///< of vertex i: neighbours[first_neighbour[i] .. first_neighbour[i + 1])
   std::vector<int> neighbours;
 
@@ -151,6 +166,7 @@ template <int D, class S>
 struct SumCore {
   std::shared_ptr<const Convex<D, S>> first, second;
   Vector<D, S> support(const Vector<D, S>& d, int& hint) const;
+  Vector<D, S> center() const;
 };
 
 }  // namespace gjkdbg

@@ -45,6 +45,8 @@ void MethodFlags::add_to(CLI::App& app) {
   app.add_option("--closest_point,--closest-point", closest_point_, "sub-algorithm")->check(CLI::IsMember(list(closest_point_names)))->group(group);
   app.add_option("--penetration", penetration_, "what runs when the cores overlap")->check(CLI::IsMember(list(penetration_names)))->group(group);
   app.add_option("--scalar", scalar_, "arithmetic")->check(CLI::IsMember(list(scalar_names)))->group(group);
+  app.add_option("--stopping", stopping_, "GJK's stopping rule")->check(CLI::IsMember(list(stopping_names)))->group(group);
+  app.add_option("--acceleration", acceleration_, "momentum of gjk-accelerated")->check(CLI::IsMember(list(acceleration_names)))->group(group);
   app.add_option("--tolerance", tolerance_, "relative gap of the bounds at which to stop")->group(group);
   app.add_option("--max_iterations,--max-iterations", max_iterations_, "of each phase")->group(group);
   app.add_option("--initial_direction,--initial-direction", initial_direction_, "first search direction, e.g. 1,0,0")->delimiter(',')->group(group);
@@ -55,6 +57,8 @@ void MethodFlags::override_in(Method& method) const {
   override_name(method.closest_point, closest_point_, closest_point_names);
   override_name(method.penetration, penetration_, penetration_names);
   override_name(method.scalar, scalar_, scalar_names);
+  override_name(method.stopping, stopping_, stopping_names);
+  override_name(method.acceleration, acceleration_, acceleration_names);
   if (tolerance_) method.tolerance = tolerance_;
   if (max_iterations_) method.max_iterations = max_iterations_;
   if (!initial_direction_.empty()) {
@@ -73,7 +77,7 @@ Settings MethodFlags::resolve(const SceneFile& scene, const std::string& source)
   } catch (const Error& e) {
     const std::string setting = e.where().starts_with("/method/") ? e.where().substr(8) : "";
     const bool by_flag = (setting == "name" && name_) || (setting == "closest_point" && closest_point_) ||
-                         (setting == "penetration" && penetration_) || (setting == "scalar" && scalar_) ||
+                         (setting == "penetration" && penetration_) || (setting == "scalar" && scalar_) || (setting == "stopping" && stopping_) ||
                          (setting == "tolerance" && tolerance_) || (setting == "max_iterations" && max_iterations_) ||
                          (setting == "initial_direction" && !initial_direction_.empty());
     if (by_flag) throw Error(e.code(), e.message(), "--" + setting);

@@ -33,7 +33,7 @@ class MethodFlags {
   Settings resolve(const SceneFile& scene, const std::string& source) const;
 
  private:
-  std::optional<std::string> name_, closest_point_, penetration_, scalar_;
+  std::optional<std::string> name_, closest_point_, penetration_, scalar_, stopping_, acceleration_;
   std::optional<double> tolerance_;
   std::optional<int> max_iterations_;
   std::vector<double> initial_direction_;

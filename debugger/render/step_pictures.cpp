@@ -38,6 +38,7 @@ class Painter {
     grid();
     if (settings_.difference) mesh(meshes_.difference, palette_.text_faint, 0.07, ViewPoint::Zero());
     polytope();
+    portal();
     simplex();
     origin();
     direction();
@@ -219,6 +220,20 @@ class Painter {
     label(tip, "depth", palette_.chosen);
   }
 
+  /// MPR: the rays from the inner point to the portal's corners, and the one through the origin.
+  void portal() {
+    if (!frame_.interior) return;
+    const ViewPoint inside = to_view(*frame_.interior);
+    picture_.points.push_back({inside, palette_.text, 6, Mark::ring, -1});
+    label(inside, "inside", palette_.text, 9, 12);
+    const ViewPoint ahead = -inside;
+    picture_.lines.push_back({inside, ahead.isZero(0) ? inside : ViewPoint(ahead.stableNormalized() * unit() * 0.8), palette_.text_soft, 1.6, Stroke::dashed, true, true});
+    if (frame_.portal.empty()) return;
+    for (const int v : frame_.portal)
+      if (const FrameVertex* p = vertex(v)) picture_.line(inside, to_view(p->w), palette_.chosen.with_alpha(0.5), 1.3);
+    face({-1, 0, frame_.portal, {}, 0}, palette_.chosen, 0.4, 2.6);
+  }
+
   void simplex() {
     std::vector<ViewPoint> points;
     for (const int v : frame_.simplex)
@@ -236,7 +251,7 @@ class Painter {
 
   void direction() {
     if (!frame_.direction || frame_.gjk_status) {
-      if (frame_.stage != Frame::Stage::epa && frame_.stage != Frame::Stage::seed) return;
+      if (frame_.stage == Frame::Stage::gjk || frame_.stage == Frame::Stage::before || frame_.stage == Frame::Stage::done) return;
     }
     if (!frame_.direction || frame_.depth) return;
     const ViewPoint d = arrow_along(*frame_.direction, 0.42);

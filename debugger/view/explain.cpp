@@ -51,6 +51,7 @@ std::string sentence(GjkStatus status, const recorded::GjkEnded& e) {
     case GjkStatus::touching: return "The origin lies on the simplex, within rounding: on a vertex, an edge or a face. Whether this is touch or overlap, EPA will tell.";
     case GjkStatus::stalled: return "|v| no longer falls: the precision is used up. The bounds say how much is known.";
     case GjkStatus::iteration_limit: return "The iteration limit is reached before the bounds met. This is no answer; the bounds say how much is known.";
+    case GjkStatus::rule_met: return "The stopping rule of the method is met. Bounds that have not met say that it stopped early.";
     case GjkStatus::aborted: return "The solver ended without an answer.";
   }
   return {};
@@ -82,6 +83,10 @@ struct Explain {
   Explanation operator()(const recorded::SupportQueried& e) const {
     const std::string where = "The farthest point of A - B along d = " + short_vector(e.direction) + " is w = a - b = " + short_vector(e.w) + ". ";
     if (e.phase == Phase::seed) return {"Support for EPA's start", where + "The simplex GJK left has too few corners for EPA: what is missing is asked for, across what is there."};
+    if (e.phase == Phase::mpr)
+      return {"Support for the portal", where + (e.direction.dot(e.w) < 0 ? "It lies short of the origin: its plane proves the bodies apart."
+                                                                         : "It lies at or past the origin along d, so this plane does not separate the bodies.")};
+    if (e.phase == Phase::sat) return {"Support along an axis", where + "How far it reaches past the origin is how far the bodies overlap along this axis."};
     if (e.phase == Phase::epa) return {"Support beyond the chosen face", where + "If it lies farther out than the face, the polytope grows to it; if not, the face is the boundary."};
     const double along = e.direction.dot(e.w) / e.direction.norm();
     if (frame.simplex.size() <= 1) return {"First support", where + "One corner of the difference is a start: the simplex is this point."};
@@ -128,6 +133,47 @@ struct Explain {
     return {"EPA ends: " + std::string(epa_status_names[static_cast<std::size_t>(e.status)]), sentence(e.status, e)};
   }
 
+  Explanation operator()(const recorded::MprBegan& e) const {
+    return {"MPR begins", "From a point inside A - B, " + short_vector(e.interior) + ", the difference of two inner points of the bodies, a ray goes through the origin. Where does it leave A - B: before the origin or beyond it?"};
+  }
+
+  Explanation operator()(const recorded::PortalFound& e) const {
+    return {"A portal", "The ray passes between these vertices. " + std::string(e.distance < 0 ? "The origin is still beyond the portal, by " + short_number(-e.distance) + ": is there anything of A - B farther out?"
+                                                                                              : "The origin is on the inner side, by " + short_number(e.distance) + ": the bodies overlap. The portal moves out to the boundary for the depth.")};
+  }
+
+  Explanation operator()(const recorded::MprEnded& e) const {
+    const std::string title = "MPR ends: " + std::string(mpr_status_names[static_cast<std::size_t>(e.status)]);
+    switch (e.status) {
+      case MprStatus::separated: return {title, "The plane of the last support has all of A - B on its far side: the bodies are apart, by at least " + short_number(-e.depth) + ". How far, MPR does not know."};
+      case MprStatus::overlapping: return {title, "The origin lies inside a portal: the bodies overlap, and no more was asked."};
+      case MprStatus::converged:
+        return {title, "The portal is part of the boundary. Moving B by " + short_number(e.depth) + " along its normal " + short_vector(e.normal) + " separates the bodies; a shorter way may exist, for MPR looks in one direction only."};
+      case MprStatus::flat: return {title, "A - B has no volume, so no point of it is inside: MPR has nowhere to look from, and GJK and EPA answer instead."};
+      case MprStatus::stalled: return {title, "The portal no longer moves in this precision. The bounds say how much is known."};
+      case MprStatus::iteration_limit: return {title, "The limit is reached. The bounds say how much is known."};
+    }
+    return {title, {}};
+  }
+
+  Explanation operator()(const recorded::SatBegan& e) const {
+    return {"SAT begins", "Two polytopes are apart exactly when the normal of a face or the cross product of two edges separates them: " + std::to_string(e.faces_a) + " faces of A, " + std::to_string(e.faces_b) +
+                              " of B, and of " + std::to_string(e.edge_pairs) + " pairs of edges those that make a face of A - B."};
+  }
+
+  Explanation operator()(const recorded::AxisTested& e) const {
+    static const char* const from[] = {"a face of A", "a face of B", "an edge of each"};
+    const std::string axis = "Along " + short_vector(e.direction) + ", from " + from[static_cast<std::size_t>(e.source)] + ", ";
+    if (e.distance > 0) return {"An axis with a gap", axis + "the bodies are " + short_number(e.distance) + " apart: this axis separates them."};
+    return {"An axis without a gap", axis + "the bodies overlap by " + short_number(-e.distance) + (e.lower_bound <= e.distance ? ", the least so far: the depth is no more than that." : ", more than along the best axis so far.")};
+  }
+
+  Explanation operator()(const recorded::SatEnded& e) const {
+    const std::string title = "SAT ends: " + std::string(sat_status_names[static_cast<std::size_t>(e.status)]);
+    if (e.status == SatStatus::separated) return {title, "One separating axis is proof enough: the bodies (their cores) are apart. How far, GJK tells if it is asked for."};
+    return {title, "No axis separates, so the bodies overlap; the least overlap of all axes, " + short_number(-e.distance) + " along " + short_vector(e.normal) + ", is the depth, exactly."};
+  }
+
   Explanation operator()(const recorded::Warning& e) const { return {"Warning: " + e.code, e.message}; }
 };
 
@@ -144,6 +190,16 @@ struct Summarise {
   std::string operator()(const recorded::EpaEnded& e) const {
     return std::string(epa_status_names[static_cast<std::size_t>(e.status)]) + "  depth " + short_number(e.depth);
   }
+  std::string operator()(const recorded::MprBegan& e) const { return "from " + short_vector(e.interior); }
+  std::string operator()(const recorded::PortalFound& e) const { return "portal at " + short_number(e.distance); }
+  std::string operator()(const recorded::MprEnded& e) const {
+    return std::string(mpr_status_names[static_cast<std::size_t>(e.status)]) + "  depth " + short_number(e.depth);
+  }
+  std::string operator()(const recorded::SatBegan& e) const { return std::to_string(e.faces_a) + " + " + std::to_string(e.faces_b) + " faces, " + std::to_string(e.edge_pairs) + " edge pairs"; }
+  std::string operator()(const recorded::AxisTested& e) const { return (e.distance > 0 ? "gap " : "overlap ") + short_number(std::abs(e.distance)); }
+  std::string operator()(const recorded::SatEnded& e) const {
+    return std::string(sat_status_names[static_cast<std::size_t>(e.status)]) + "  " + short_number(e.distance);
+  }
   std::string operator()(const recorded::Warning& e) const { return e.code; }
 };
 
@@ -153,9 +209,40 @@ Explanation explain(const Recording& recording, const Frame& frame) { return std
 
 std::string summary(const Recording& recording, std::size_t step) { return std::visit(Summarise{}, recording.events[step]); }
 
+namespace {
+
+/// Whether MPR is still looking for its first portal at this step.
+bool frame_before_portal(const Recording& recording, std::size_t step) {
+  for (std::size_t i = step + 1; i-- > 0;) {
+    if (std::holds_alternative<recorded::PortalFound>(recording.events[i])) return false;
+    if (std::holds_alternative<recorded::MprBegan>(recording.events[i])) return true;
+  }
+  return true;
+}
+
+}  // namespace
+
 PseudoCode pseudo_code(const Recording& recording, std::size_t step) {
   const Event& event = recording.events[step];
   const auto* query = std::get_if<recorded::SupportQueried>(&event);
+  if (std::holds_alternative<recorded::MprBegan>(event) || std::holds_alternative<recorded::PortalFound>(event) || std::holds_alternative<recorded::MprEnded>(event) ||
+      (query && query->phase == Phase::mpr)) {
+    PseudoCode code{"MPR", {"v0 = a point inside A - B", "find a portal the ray v0 O passes", "repeat", "  n = normal of the portal", "  if O on v0's side: overlap", "  w = support(n)", "  if w short of O: apart", "  if w not beyond: depth = n.w", "  portal = the part with w that the ray passes"}, -1};
+    if (std::holds_alternative<recorded::MprBegan>(event)) code.current = 0;
+    else if (std::holds_alternative<recorded::PortalFound>(event)) code.current = 3;
+    else if (query) code.current = frame_before_portal(recording, step) ? 1 : 5;
+    else code.current = std::get<recorded::MprEnded>(event).status == MprStatus::separated ? 6 : std::get<recorded::MprEnded>(event).status == MprStatus::overlapping ? 4 : 7;
+    return code;
+  }
+  if (std::holds_alternative<recorded::SatBegan>(event) || std::holds_alternative<recorded::AxisTested>(event) || std::holds_alternative<recorded::SatEnded>(event) ||
+      (query && query->phase == Phase::sat)) {
+    PseudoCode code{"SAT", {"for n in faces of A, faces of B,", "         edge of A x edge of B", "  w = support(n)", "  if n.w < 0: apart", "  depth = min(depth, n.w)", "overlap, depth"}, -1};
+    if (std::holds_alternative<recorded::SatBegan>(event)) code.current = 0;
+    else if (query) code.current = 2;
+    else if (const auto* axis = std::get_if<recorded::AxisTested>(&event)) code.current = axis->distance > 0 ? 3 : 4;
+    else code.current = std::get<recorded::SatEnded>(event).status == SatStatus::separated ? 3 : 5;
+    return code;
+  }
   if ((query && query->phase != Phase::gjk) || std::holds_alternative<recorded::PolytopeSeeded>(event) || std::holds_alternative<recorded::FaceChosen>(event) ||
       std::holds_alternative<recorded::PolytopeGrown>(event) || std::holds_alternative<recorded::EpaEnded>(event)) {
     PseudoCode code{"EPA", {"P = simplex, completed to enclose O", "repeat", "  f = face of P nearest O", "  w = support(normal of f)", "  if w not beyond f: depth = |f|", "  remove the faces w sees", "  join the horizon to w"}, -1};

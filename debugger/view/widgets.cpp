@@ -47,6 +47,12 @@ Colour event_colour(const Palette& p, const Event& event) {
     Colour operator()(const recorded::FaceChosen&) const { return p.chosen; }
     Colour operator()(const recorded::PolytopeGrown&) const { return p.frontier; }
     Colour operator()(const recorded::EpaEnded&) const { return p.text; }
+    Colour operator()(const recorded::MprBegan&) const { return p.text; }
+    Colour operator()(const recorded::PortalFound&) const { return p.chosen; }
+    Colour operator()(const recorded::MprEnded&) const { return p.text; }
+    Colour operator()(const recorded::SatBegan&) const { return p.text; }
+    Colour operator()(const recorded::AxisTested&) const { return p.chosen; }
+    Colour operator()(const recorded::SatEnded&) const { return p.text; }
     Colour operator()(const recorded::Warning&) const { return p.newest; }
   } colours{p};
   return std::visit(colours, event);

@@ -137,16 +137,23 @@ TEST(Trace, EveryPhaseEndsExactlyOnce) {
   for (const SceneFile& scene : gallery_scenes()) {
     SCOPED_TRACE(scene.scene.name);
     const Recording recording = record(scene);
-    bool gjk = false, epa = false;
+    bool gjk = false, epa = false, other = false;
     int next_vertex = 0, last_face = -1;
     for (const Event& event : recording.events) {
       if (std::holds_alternative<recorded::GjkBegan>(event)) {
-        EXPECT_FALSE(gjk || epa);
+        EXPECT_FALSE(gjk || epa || other);
         gjk = true;
+      } else if (std::holds_alternative<recorded::MprBegan>(event) || std::holds_alternative<recorded::SatBegan>(event)) {
+        EXPECT_FALSE(gjk || epa || other);
+        other = true;
+      } else if (std::holds_alternative<recorded::MprEnded>(event) || std::holds_alternative<recorded::SatEnded>(event)) {
+        EXPECT_TRUE(other);
+        other = false;
       } else if (const auto* query = std::get_if<recorded::SupportQueried>(&event)) {
         EXPECT_EQ(query->vertex, next_vertex++);
         EXPECT_EQ(gjk, query->phase == Phase::gjk);
-        if (query->phase != Phase::gjk) epa = true;
+        EXPECT_EQ(other, query->phase == Phase::mpr || query->phase == Phase::sat);
+        if (query->phase == Phase::seed || query->phase == Phase::epa) epa = true;
       } else if (std::holds_alternative<recorded::GjkEnded>(event)) {
         EXPECT_TRUE(gjk);
         gjk = false;
@@ -162,18 +169,22 @@ TEST(Trace, EveryPhaseEndsExactlyOnce) {
         epa = false;
       }
     }
-    EXPECT_FALSE(gjk || epa);
+    EXPECT_FALSE(gjk || epa || other);
     EXPECT_FALSE(recording.events.empty());
   }
 }
 
 TEST(Trace, EveryStatusIsReachedByTheGallery) {
-  std::vector<bool> gjk(gjk_status_names.size()), epa(epa_status_names.size());
+  std::vector<bool> gjk(gjk_status_names.size()), epa(epa_status_names.size()), mpr(mpr_status_names.size()), sat(sat_status_names.size());
   for (const SceneFile& scene : gallery_scenes())
     for (const Event& event : record(scene).events) {
       if (const auto* e = std::get_if<recorded::GjkEnded>(&event)) gjk[static_cast<std::size_t>(e->status)] = true;
       if (const auto* e = std::get_if<recorded::EpaEnded>(&event)) epa[static_cast<std::size_t>(e->status)] = true;
+      if (const auto* e = std::get_if<recorded::MprEnded>(&event)) mpr[static_cast<std::size_t>(e->status)] = true;
+      if (const auto* e = std::get_if<recorded::SatEnded>(&event)) sat[static_cast<std::size_t>(e->status)] = true;
     }
+  for (std::size_t i = 0; i < mpr.size(); ++i) EXPECT_TRUE(mpr[i] || mpr_status_names[i] == "stalled" || mpr_status_names[i] == "iteration_limit") << "mpr " << mpr_status_names[i];
+  for (std::size_t i = 0; i < sat.size(); ++i) EXPECT_TRUE(sat[i]) << "sat " << sat_status_names[i];
   for (std::size_t i = 0; i < gjk.size(); ++i) EXPECT_TRUE(gjk[i] || gjk_status_names[i] == "aborted") << "gjk " << gjk_status_names[i];
   for (std::size_t i = 0; i < epa.size(); ++i) EXPECT_TRUE(epa[i] || epa_status_names[i] == "stalled" || epa_status_names[i] == "aborted") << "epa " << epa_status_names[i];
 }

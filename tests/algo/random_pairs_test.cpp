@@ -122,6 +122,50 @@ TEST(RandomPairs, EveryVariantAgreesWithExactArithmetic) {
     }
 }
 
+/// SAT is exact for what it decides itself; MPR is right about yes and no, and its depth is a way out, if not the shortest.
+TEST(RandomPairs, SatAndMprAgreeWithExactArithmetic) {
+  RandomScenes random(8);
+  int shortest = 0, deep = 0;
+  for (int k = 0; k < pairs() / 4; ++k) {
+    const int dimension = 1 + k % 3;
+    const auto family = static_cast<Family>(k / 3 % family_count);
+    const Scene scene = random.scene(dimension, family, true);
+    SCOPED_TRACE(where(dimension, family, k));
+    const auto exact = oracle::signed_distance(scene);
+    const double size = std::max(size_of(scene), std::abs(exact->signed_distance)), sd = exact->signed_distance;
+    for (const MethodName name : {MethodName::sat, MethodName::mpr})
+      for (const Query query : {Query::intersect, Query::distance, Query::penetration}) {
+        Scene asked = scene;
+        asked.query = query;
+        Method method;
+        method.name = name;
+        const Result r = solve(asked, resolve_settings(method, asked));
+        if (std::abs(sd) > 1e-12 * size) {
+          EXPECT_EQ(r.intersecting, exact->intersecting) << method_names[static_cast<std::size_t>(name)] << " " << sd;
+        }
+        if (query == Query::distance) {
+          EXPECT_NEAR(*r.signed_distance, std::max(0.0, sd), 1e-10 * size);
+        }
+        if (query != Query::penetration) continue;
+        EXPECT_LE(*r.lower_bound, sd + 1e-13 * size);
+        EXPECT_GE(*r.upper_bound, sd - 1e-13 * size);
+        if (name == MethodName::sat || sd > 0) {
+          EXPECT_NEAR(*r.signed_distance, sd, 1e-10 * size);
+          EXPECT_LE((*r.witness_b - *r.witness_a - *r.signed_distance * *r.normal).norm(), 1e-14 * (size + scene.bodies[0].pose.position.norm()));
+          EXPECT_LE(outside(asked, 0, *r.witness_a), 1e-9 * size) << r.status << " " << sd;
+          EXPECT_LE(outside(asked, 1, *r.witness_b), 1e-9 * size) << r.status << " " << sd;
+        } else {
+          EXPECT_LE(*r.signed_distance, sd + 1e-10 * size);
+          EXPECT_NE(r.status, "iteration_limit");
+          ++deep, shortest += *r.signed_distance > sd - 1e-9 * size;
+        }
+      }
+    if (testing::Test::HasFailure()) return;
+  }
+  std::printf("MPR's way out is the shortest in %d of %d\n", shortest, deep);
+  EXPECT_LT(shortest, deep);
+}
+
 TEST(RandomPairs, ContactPointsLieOnBothBodies) {
   RandomScenes random(2);
   int found = 0;

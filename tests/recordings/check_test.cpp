@@ -40,6 +40,8 @@ TEST(Check, OurOwnRecordingsOfRandomScenesAreClean) {
     file.method.closest_point = static_cast<ClosestPoint>(k / 7 % 3);
     if (k / 5 % 3 == 0) file.method.name = MethodName::gjk_accelerated;
     if (file.scene.query == Query::intersect && k % 8 < 4) file.method.name = MethodName::gjk_boolean;
+    if (k % 11 == 0) file.method.name = MethodName::mpr;
+    if (k % 13 == 0 && k % 2 == 0) file.method.name = MethodName::sat;
     EXPECT_EQ(text(check(record(file))), "") << "scene " << k;
     if (testing::Test::HasFailure()) break;
   }

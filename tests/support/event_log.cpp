@@ -32,6 +32,18 @@ struct Line {
   void operator()(const recorded::EpaEnded& e) {
     out << "epa ended " << epa_status_names[static_cast<std::size_t>(e.status)] << ": depth " << e.depth << " along", vector(e.normal);
   }
+  void operator()(const recorded::MprBegan& e) { out << "mpr began inside at", vector(e.interior); }
+  void operator()(const recorded::PortalFound& e) { out << "portal", list(e.vertices), out << " at " << e.distance << " along", vector(e.normal); }
+  void operator()(const recorded::MprEnded& e) {
+    out << "mpr ended " << mpr_status_names[static_cast<std::size_t>(e.status)] << ": depth " << e.depth << " along", vector(e.normal);
+  }
+  void operator()(const recorded::SatBegan& e) { out << "sat began: faces " << e.faces_a << " " << e.faces_b << ", edge pairs " << e.edge_pairs; }
+  void operator()(const recorded::AxisTested& e) {
+    out << "axis of " << axis_source_names[static_cast<std::size_t>(e.source)] << " along", vector(e.direction), out << ": " << e.distance;
+  }
+  void operator()(const recorded::SatEnded& e) {
+    out << "sat ended " << sat_status_names[static_cast<std::size_t>(e.status)] << ": " << e.distance << " along", vector(e.normal);
+  }
   void operator()(const recorded::Warning& e) { out << "warning " << e.code; }
 };
 

@@ -1,0 +1,74 @@
+#include "shapes/features.h"
+
+#include <algorithm>
+#include <map>
+
+#include "shapes/convex_hull.h"
+#include "shapes/corners.h"
+
+namespace gjkdbg {
+namespace {
+
+using Point3 = Vector<3, double>;
+
+/// Newell's sum: twice the polygon's area vector, exact for flat polygons of any number of corners.
+AnyVector polygon_normal(const std::vector<AnyVector>& points, const std::vector<int>& loop) {
+  Point3 sum = Point3::Zero();
+  const Point3 first = points[static_cast<std::size_t>(loop[0])];
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+    const Point3 p = points[static_cast<std::size_t>(loop[i])], q = points[static_cast<std::size_t>(loop[i + 1])];
+    sum += (p - first).cross(q - first);
+  }
+  return sum.stableNormalized();
+}
+
+void add_distinct(std::vector<AnyVector>& list, const AnyVector& n) {
+  if (n.isZero(0) || !n.allFinite()) return;
+  if (std::none_of(list.begin(), list.end(), [&](const AnyVector& m) { return m == n; })) list.push_back(n);
+}
+
+void add_edge(std::vector<EdgeFeature>& edges, EdgeFeature edge) {
+  const auto same = [&](const EdgeFeature& e) { return (e.direction == edge.direction || e.direction == -edge.direction) && e.left == edge.left && e.right == edge.right; };
+  if (std::none_of(edges.begin(), edges.end(), same)) edges.push_back(std::move(edge));
+}
+
+Features features_3d(const std::vector<AnyVector>& points, const ConvexHull& hull) {
+  Features features;
+  std::map<std::pair<int, int>, std::vector<AnyVector>> beside;
+  for (const auto& loop : hull.faces) {
+    const AnyVector n = polygon_normal(points, loop);
+    add_distinct(features.face_normals, n);
+    for (std::size_t i = 0; i < loop.size(); ++i) beside[std::minmax(loop[i], loop[(i + 1) % loop.size()])].push_back(n);
+  }
+  for (const auto& [i, j] : hull.edges) {
+    EdgeFeature edge{(points[static_cast<std::size_t>(j)] - points[static_cast<std::size_t>(i)]).stableNormalized(), {}, {}};
+    const auto& faces = beside[{i, j}];
+    if (hull.rank == 3 && faces.size() == 2) edge.left = faces[0], edge.right = faces[1];
+    if (!edge.direction.isZero(0)) add_edge(features.edges, std::move(edge));
+  }
+  return features;
+}
+
+Features features_2d(const std::vector<AnyVector>& points, const ConvexHull& hull) {
+  Features features;
+  const auto add = [&](int i, int j) {
+    const AnyVector e = points[static_cast<std::size_t>(j)] - points[static_cast<std::size_t>(i)];
+    add_distinct(features.face_normals, Vector<2, double>(e[1], -e[0]).stableNormalized());
+  };
+  for (const auto& loop : hull.faces)
+    for (std::size_t i = 0; i < loop.size(); ++i) add(loop[i], loop[(i + 1) % loop.size()]);
+  if (hull.rank == 1) add(hull.vertices.front(), hull.vertices.back()), add(hull.vertices.back(), hull.vertices.front());
+  return features;
+}
+
+}  // namespace
+
+std::optional<Features> features_of(const Shape& shape, int dimension) {
+  const auto corners = corners_of(shape, dimension);
+  if (!corners) return std::nullopt;
+  const ConvexHull hull = convex_hull(corners->points, dimension);
+  if (dimension == 1) return Features{{AnyVector::Ones(1), -AnyVector::Ones(1)}, {}};
+  return dimension == 2 ? features_2d(corners->points, hull) : features_3d(corners->points, hull);
+}
+
+}  // namespace gjkdbg

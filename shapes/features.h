@@ -1,0 +1,25 @@
+// The faces and edges of a polytope's core, as far as the separating axis test needs them: which way they face.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "shapes/shape.h"
+
+namespace gjkdbg {
+
+struct EdgeFeature {
+  AnyVector direction;    ///< unit
+  AnyVector left, right;  ///< outward normals of the two faces it joins; of no size when the polytope is no solid
+};
+
+/// In the axes of the body. A flat polytope in space has two faces, a segment none.
+struct Features {
+  std::vector<AnyVector> face_normals;  ///< unit, outwards
+  std::vector<EdgeFeature> edges;       ///< 3D only; those that differ in more than their place
+};
+
+/// Nothing for what is not a polytope with a radius around it (corners_of).
+std::optional<Features> features_of(const Shape& shape, int dimension);
+
+}  // namespace gjkdbg
