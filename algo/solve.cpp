@@ -109,6 +109,27 @@ Result dispatch(const Scene& scene, const Settings& settings, Sink& sink) {
 
 }  // namespace
 
+namespace {
+
+template <int D, class S>
+double floor_of(const Scene& scene) {
+  const Pose &pose_a = scene.bodies[0].pose, &pose_b = scene.bodies[1].pose;
+  const Convex<D, S> a(convex_parts(scene.bodies[0].shape)[0]), b(convex_parts(scene.bodies[1].shape)[0]);
+  const auto relative = relative_pose<D, S>(pose_a, a.reference(), pose_b, b.reference(), 1);
+  return static_cast<double>(MinkowskiDifference<D, S, Convex<D, S>>(a, b, relative).rounding_floor());
+}
+
+}  // namespace
+
+double rounding_floor(const Scene& scene, const Settings& settings) {
+  const bool single = settings.scalar == Scalar::float_precision;
+  switch (scene.dimension) {
+    case 1: return single ? floor_of<1, float>(scene) : floor_of<1, double>(scene);
+    case 2: return single ? floor_of<2, float>(scene) : floor_of<2, double>(scene);
+    default: return single ? floor_of<3, float>(scene) : floor_of<3, double>(scene);
+  }
+}
+
 Result solve(const Scene& scene, const Settings& settings) {
   NoSink sink;
   return dispatch(scene, settings, sink);

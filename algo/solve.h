@@ -60,6 +60,9 @@ class SinkTaking<Self, Base, EventList<Event, Rest...>> : public SinkTaking<Self
 /// range and for combinations that do not exist, among them what a later version will bring: the queries cast and simulate.
 Settings resolve_settings(const Method& method, const Scene& scene);
 
+/// How far a computed support plane of the scene may be off, in the settings' precision (algo/minkowski_difference.h). Of a mesh: its first triangle's.
+double rounding_floor(const Scene& scene, const Settings& settings);
+
 /// Solves the scene's query for its two bodies. The scene must be valid (`shapes/scene_check.h` or the reader of recordings/).
 /// Deterministic; with and without a sink the result is the same bit for bit.
 Result solve(const Scene& scene, const Settings& settings);

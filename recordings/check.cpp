@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "recordings/check_context.h"
+#include "recordings/region_tests.h"
 #include "recordings/json_writing.h"
 #include "shapes/convex.h"
 #include "shapes/corners.h"
@@ -12,26 +13,11 @@ namespace gjkdbg {
 
 NearestPoint nearest_point(const std::vector<AnyVector>& points) {
   NearestPoint best{points[0], {0}};
-  const auto n = static_cast<unsigned>(std::min<std::size_t>(points.size(), 8));
-  for (unsigned mask = 1; mask < 1u << n; ++mask) {
-    std::vector<int> subset;
-    for (unsigned i = 0; i < n; ++i)
-      if ((mask >> i & 1u) != 0) subset.push_back(static_cast<int>(i));
-    const auto k = static_cast<Eigen::Index>(subset.size());
-    if (k > points[0].size() + 1) continue;
-    // The point of the affine hull nearest the origin: minimise |w0 + E t|.
-    const AnyVector& w0 = points[static_cast<std::size_t>(subset[0])];
-    Eigen::MatrixXd edges(w0.size(), k - 1);
-    for (Eigen::Index i = 1; i < k; ++i) edges.col(i - 1) = points[static_cast<std::size_t>(subset[static_cast<std::size_t>(i)])] - w0;
-    Eigen::VectorXd t(k - 1);
-    if (k > 1) {
-      const auto qr = edges.colPivHouseholderQr();
-      if (qr.rank() < k - 1) continue;
-      t = qr.solve(-w0);
-    }
-    if ((t.array() < -1e-12).any() || t.sum() > 1 + 1e-12) continue;
-    const AnyVector v = k > 1 ? AnyVector(w0 + edges * t) : w0;
-    if (v.norm() < best.v.norm()) best = {v, subset};
+  for (const RegionTest& test : region_tests({points.begin(), points.begin() + std::min<std::ptrdiff_t>(8, std::ssize(points))}, 1e-12)) {
+    if (!test.holds_projection) continue;
+    AnyVector v = AnyVector::Zero(points[0].size());
+    for (std::size_t i = 0; i < test.part.size(); ++i) v += test.weights[i] * points[static_cast<std::size_t>(test.part[i])];
+    if (v.norm() < best.v.norm()) best = {v, test.part};
   }
   return best;
 }

@@ -101,7 +101,7 @@ TEST_F(Window, OrbitsPansAndZooms) {
 }
 
 TEST_F(Window, DraggingABodySolvesAgainAndIsUndoneAsOne) {
-  const ViewRectangle view{276, 54 + 48 * 0.6, 328, 474 - 48 * 0.6};
+  const ViewRectangle view{282, 54 + 48 * 0.6, 325, 474 - 48 * 0.6};
   const Projected at = Projection(app.world_camera, view)(to_view(session.scene().scene.bodies[1].pose.position));
   const AnyVector before = session.scene().scene.bodies[1].pose.position;
   const double depth = *session.recording().result.signed_distance;

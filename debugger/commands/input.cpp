@@ -1,5 +1,9 @@
 #include "debugger/commands/input.h"
 
+#ifdef __APPLE__
+#include <mach-o/dyld.h>
+#endif
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
@@ -9,10 +13,21 @@
 namespace gjkdbg {
 namespace fs = std::filesystem;
 
+fs::path program_path() {
+  std::error_code ignored;
+#ifdef __APPLE__
+  std::string buffer(4096, 0);
+  auto size = static_cast<std::uint32_t>(buffer.size());
+  return _NSGetExecutablePath(buffer.data(), &size) == 0 ? fs::weakly_canonical(buffer.c_str(), ignored) : fs::path();
+#else
+  return fs::read_symlink("/proc/self/exe", ignored);
+#endif
+}
+
 fs::path gallery_directory() {
   if (const char* given = std::getenv("GJKDBG_GALLERY")) return given;
   std::error_code ignored;
-  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+  const fs::path program = program_path();
   const fs::path installed = program.parent_path().parent_path() / "share/gjkdbg/gallery";
   if (!program.empty() && fs::exists(installed, ignored)) return installed;
   return GJKDBG_SOURCE_GALLERY;

@@ -18,6 +18,8 @@ namespace gjkdbg {
 
 /// Where the gallery is: $GJKDBG_GALLERY, beside an installed program, or in the source tree.
 std::filesystem::path gallery_directory();
+/// This program's own file.
+std::filesystem::path program_path();
 
 /// The file a command's argument means: itself when it exists, else the gallery scene of that name, else itself (and reading it
 /// will say that it is not there).

@@ -1,6 +1,11 @@
 // view: the window. render: pictures of steps without a display.
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cstdlib>
 #include <memory>
 #include <sstream>
 
@@ -19,8 +24,59 @@
 namespace gjkdbg {
 namespace {
 
+/// Where this user's settings are kept; empty when there is no home.
+std::filesystem::path preferences_file() {
+  if (const char* config = std::getenv("XDG_CONFIG_HOME"); config && *config != 0) return std::filesystem::path(config) / "gjkdbg" / "window.json";
+  if (const char* home = std::getenv("HOME"); home && *home != 0) return std::filesystem::path(home) / ".config" / "gjkdbg" / "window.json";
+  return {};
+}
+
+Preferences remembered() {
+  const std::filesystem::path file = preferences_file();
+  std::error_code ignored;
+  if (file.empty() || !std::filesystem::is_regular_file(file, ignored)) return {};
+  try {
+    return preferences_from_text(read_text_file(file));
+  } catch (const Error&) {
+    return {};  // unreadable: as on the first start
+  }
+}
+
+void remember(const Preferences& preferences) {
+  const std::filesystem::path file = preferences_file();
+  if (file.empty()) return;
+  try {
+    make_folder(file.parent_path().string());
+    write_output(file.string(), preferences_to_text(preferences));
+  } catch (const Error&) {
+    // A home that cannot be written to is no reason to complain when the window closes.
+  }
+}
+
+/// A picture or the replay of what is open, made by this program's own `render` on a copy of the recording: the window's graphics stay as they are.
+void render_to(const App& app, const std::string& file) {
+  std::string folder = (std::filesystem::temp_directory_path() / "gjkdbg-XXXXXX").string();
+  if (!mkdtemp(folder.data())) throw Error("cannot-write", "no temporary folder can be made", folder);
+  const std::string copy = folder + "/" + (app.session.title().empty() ? "picture" : std::filesystem::path(app.session.title()).filename().string()) + ".recording.json";
+  write_output(copy, recording_to_text(app.session.recording()));
+  std::vector<std::string> words{"gjkdbg", "render", copy, "-o", file};
+  if (file.ends_with(".gif")) words.push_back("--all");
+  else words.insert(words.end(), {"--step", std::to_string(app.session.step())});
+  if (!app.theme.dark) words.push_back("--light");
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  pid_t child = 0;
+  int status = -1;
+  const int failed = posix_spawn(&child, program_path().c_str(), nullptr, nullptr, arguments.data(), environ);
+  if (failed == 0) waitpid(child, &status, 0);
+  std::filesystem::remove_all(folder);
+  if (failed != 0 || !WIFEXITED(status) || WEXITSTATUS(status) != 0) throw Error("cannot-write", "the picture could not be made", file);
+}
+
 std::string save(const App& app, const std::string& file) {
   try {
+    if (file.ends_with(".png") || file.ends_with(".svg") || file.ends_with(".gif")) return render_to(app, file), std::string();
     const Recording& recording = app.session.recording();
     write_output(file, file.ends_with(".recording.json") ? recording_to_text(recording) : pretty_json(scene_to_json(recording.scene)) + "\n");
     return {};
@@ -62,12 +118,15 @@ class SolverWatch {
 };
 
 struct View {
-  std::string file, command;
+  std::string file, command, beside;
   WindowOptions options;
 
   int run() {
     if (!file.empty()) options.file = scene_path(file);
+    if (!beside.empty()) options.beside = scene_path(beside);
     options.save = save;
+    options.preferences = remembered();
+    options.remember = remember;
     if (!command.empty()) {
       SceneFile scene = read_scene(options.file.empty() ? gallery_directory() / (options.scene + ".scene.json") : options.file);
       scene.method.name = MethodName::gjk;
@@ -89,6 +148,7 @@ struct Render {
     if (output.ends_with(".svg")) return svg(path);
     Headless host(width, height, scale, read_gallery(gallery_directory()));
     App& app = host.app();
+    app.preferences.dark = !light;
     apply_colours(app.theme, !light);
     app.session.open(path);
     app.left_tab = App::LeftTab::scene;
@@ -173,6 +233,7 @@ void add_view(CLI::App& app, Status& status) {
   CLI::App* command = app.add_subcommand("view", "The window; the gallery when no file is named");
   command->add_option("FILE", view->file, "scene or recording, or the name of a gallery scene");
   command->add_option("--exec", view->command, "show this solver's run on the scene, and again whenever its file changes");
+  command->add_option("--compare", view->beside, "another recording or scene, shown beside it, in step");
   command->add_option("--scale", view->options.scale, "size of everything; the monitor's unless given")->check(CLI::Range(0.5, 4.0));
   command->add_option("--width", view->options.width, "of the window")->check(CLI::Range(320, 16384));
   command->add_option("--height", view->options.height, "of the window")->check(CLI::Range(240, 16384));

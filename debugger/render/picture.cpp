@@ -70,6 +70,14 @@ std::vector<FlatItem> flatten(const Picture& picture, const Projection& project)
     }
   std::stable_sort(sorted.begin(), sorted.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
   std::vector<FlatItem> out;
+  for (const PictureLabel& mark : picture.scale_marks) {
+    FlatItem item;
+    item.kind = FlatItem::Kind::label;
+    item.points = {project(mark.at)};
+    item.points[0].x += mark.dx, item.points[0].y += mark.dy;
+    item.text = mark.text, item.colour = mark.colour, item.small = true;
+    out.push_back(std::move(item));
+  }
   for (auto& [depth, item] : sorted) out.push_back(std::move(item));
   for (const PictureLine& line : picture.lines)
     if (line.on_top) out.push_back(flat_line(line, project));
@@ -145,7 +153,7 @@ std::string to_svg(const std::vector<FlatItem>& items, double font_size) {
       case FlatItem::Kind::line: out += svg_line(item); break;
       case FlatItem::Kind::point: out += svg_point(item); break;
       case FlatItem::Kind::label:
-        out += "<text x=\"" + number(item.points[0].x) + "\" y=\"" + number(item.points[0].y + font_size) + "\" font-size=\"" + number(font_size) + "\"" +
+        out += "<text x=\"" + number(item.points[0].x) + "\" y=\"" + number(item.points[0].y + font_size) + "\" font-size=\"" + number(item.small ? font_size * 0.75 : font_size) + "\"" +
                paint("fill", item.colour) + ">" + escaped(item.text) + "</text>\n";
         break;
     }

@@ -44,6 +44,7 @@ struct Picture {
   std::vector<PictureLine> lines;
   std::vector<PicturePoint> points;
   std::vector<PictureLabel> labels;
+  std::vector<PictureLabel> scale_marks;  ///< small, under everything, never moved apart
 
   void line(const ViewPoint& from, const ViewPoint& to, Colour colour, double width = 1.5, Stroke stroke = Stroke::solid) {
     lines.push_back({from, to, colour, width, stroke, false, false});
@@ -63,6 +64,7 @@ struct FlatItem {
   bool arrow = false;
   Mark mark = Mark::disc;
   std::string text;
+  bool small = false;  ///< of a label
   int vertex = -1;
 };
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+
+#include "debugger/render/regions.h"
 
 namespace gjkdbg {
 
@@ -11,9 +14,11 @@ SceneMeshes scene_meshes(const Scene& scene) {
   return {body_mesh(a, d), body_mesh(b, d), difference_mesh(a, b, d), radius_sum(a, b, d), d};
 }
 
-std::string simplex_letter(const Frame& frame, int vertex) {
+std::string simplex_letter(const Frame& frame, int vertex, bool newest_first) {
   const auto found = std::find(frame.simplex.begin(), frame.simplex.end(), vertex);
-  return found == frame.simplex.end() ? "" : std::string(1, static_cast<char>('A' + (found - frame.simplex.begin())));
+  if (found == frame.simplex.end()) return {};
+  const auto from_newest = found - frame.simplex.begin(), from_oldest = frame.simplex.end() - found - 1;
+  return std::string(1, static_cast<char>('A' + (newest_first ? from_newest : from_oldest)));
 }
 
 namespace {
@@ -37,9 +42,12 @@ class Painter {
   Picture difference() {
     grid();
     if (settings_.difference) mesh(meshes_.difference, palette_.text_faint, 0.07, ViewPoint::Zero());
+    region();
     polytope();
     portal();
+    fading();
     simplex();
+    bound_rings();
     origin();
     direction();
     closest();
@@ -64,7 +72,17 @@ class Painter {
       const double reach = 40 * step, x = centre[0];
       picture_.line({x - reach, 0, 0}, {x + reach, 0, 0}, palette_.dropped, 1.5);
       for (int i = -40; i <= 40; ++i) picture_.line({x + i * step, -0.03 * unit(), 0}, {x + i * step, 0.03 * unit(), 0}, palette_.dropped, 1.2);
+      for (int i = -9; i <= 9; ++i) mark_number({x + i * step, -0.03 * unit(), 0}, x + i * step, -4, 8);
       return;
+    }
+    if (flat()) {
+      // Numbers along the axes, or along the edge of the view when they are out of it.
+      const double left = projection_.target()[0] - 0.95 * unit(), low = projection_.target()[1] - 0.95 * unit();
+      const bool x_axis_seen = std::abs(projection_.target()[1]) < unit(), y_axis_seen = std::abs(projection_.target()[0]) < unit();
+      for (int i = -9; i <= 9; ++i) {
+        mark_number({centre[0] + i * step, x_axis_seen ? 0 : low, 0}, centre[0] + i * step, 3, 2);
+        if (std::abs(centre[1] + i * step) > 1e-9 * step) mark_number({y_axis_seen ? 0 : left, centre[1] + i * step, 0}, centre[1] + i * step, 3, 2);
+      }
     }
     const int count = flat() ? 40 : 10;
     const double reach = count * step, floor = projection_.target()[1] - 0.8 * unit();
@@ -78,6 +96,13 @@ class Painter {
         picture_.line({centre[0] - reach, floor, z}, {centre[0] + reach, floor, z}, colour, 1);
       }
     }
+  }
+
+  void mark_number(const ViewPoint& at, double value, double dx, double dy) {
+    if (!settings_.labels) return;
+    char text[24];
+    std::snprintf(text, sizeof text, "%.4g", std::abs(value) < 1e-12 * unit() ? 0.0 : value);
+    picture_.scale_marks.push_back({at, text, palette_.text_faint.with_alpha(0.75), dx, dy});
   }
 
   void mesh(const DisplayMesh& m, Colour colour, double opacity, const ViewPoint& offset) {
@@ -110,6 +135,8 @@ class Painter {
     if (settings_.labels && !text.empty()) picture_.labels.push_back({at, text, colour, dx, dy});
   }
 
+  std::string letter_of(int number) const { return simplex_letter(frame_, number, settings_.newest_first); }
+
   const FrameVertex* vertex(int number) const {
     const auto found = frame_.vertices.find(number);
     return found == frame_.vertices.end() ? nullptr : &found->second;
@@ -120,8 +147,8 @@ class Painter {
   void supports() {
     const bool over = frame_.step + 1 == recording_.events.size() && recording_.result.witness_a;  // the witness points speak then
     for (const auto& [number, v] : frame_.vertices) {
-      const bool newest = frame_.newest == number && !over, in_simplex = !simplex_letter(frame_, number).empty();
-      const bool selected = settings_.selected == number;
+      const bool newest = frame_.newest == number && !over, in_simplex = !letter_of(number).empty();
+      const bool selected = settings_.selected == number || settings_.pointed == number;
       if (((!newest && !in_simplex) || over) && !selected) continue;
       const ViewPoint a = to_view(v.a) + one_d_offset(0), b = to_view(v.b) + one_d_offset(1);
       const Colour colour = newest ? palette_.support : palette_.support.with_alpha(0.45);
@@ -212,7 +239,7 @@ class Painter {
       for (const FrameFace& f : frame_.removed) face(f, palette_.dropped, 0.04, 1.2, Stroke::dashed);
     for (const Edge& e : frame_.horizon) {
       const FrameVertex *p = vertex(e[0]), *q = vertex(e[1]);
-      if (p && q && !flat()) picture_.lines.push_back({to_view(p->w), to_view(q->w), palette_.frontier, 3.2, Stroke::solid, false, true});
+      if (p && q && !flat()) picture_.lines.push_back({to_view(p->w), to_view(q->w), palette_.frontier, 3.2, Stroke::solid, true, true});
     }
     if (!frame_.normal || !frame_.depth) return;
     const ViewPoint tip = to_view(*frame_.normal) * std::max(0.0, *frame_.depth - meshes_.radius);
@@ -232,6 +259,62 @@ class Painter {
     for (const int v : frame_.portal)
       if (const FrameVertex* p = vertex(v)) picture_.line(inside, to_view(p->w), palette_.chosen.with_alpha(0.5), 1.3);
     face({-1, 0, frame_.portal, {}, 0}, palette_.chosen, 0.4, 2.6);
+  }
+
+  /// The simplex before the cut and the part that was kept: where the origin is seen from.
+  void region() {
+    const auto* e = std::get_if<recorded::SimplexReduced>(&recording_.events[frame_.step]);
+    if (!e || !settings_.regions || e->before.size() < 2) return;
+    std::vector<ViewPoint> points;
+    std::vector<int> part;
+    for (const int v : e->before) {
+      const FrameVertex* p = vertex(v);
+      if (!p) return;
+      if (std::find(e->region.begin(), e->region.end(), v) != e->region.end()) part.push_back(static_cast<int>(points.size()));
+      points.push_back(to_view(p->w));
+    }
+    if (part.size() != e->region.size()) return;
+    draw_region(picture_, points, part, 3 * unit(), palette_.simplex, meshes_.dimension);
+    ViewPoint middle = ViewPoint::Zero();
+    std::string name;
+    for (const int i : part) middle += points[static_cast<std::size_t>(i)] / static_cast<double>(part.size());
+    for (const int v : frame_.simplex) name += letter_of(v);
+    std::sort(name.begin(), name.end());
+    label(meshes_.dimension == 1 ? middle : ViewPoint(middle * 0.55), "region " + name, palette_.simplex, 10, 22);
+  }
+
+  /// What was dropped in the last steps, fading.
+  void fading() {
+    if (!settings_.dropped) return;
+    std::size_t cuts = 0;
+    for (std::size_t back = 1; back <= 8 && back <= frame_.step && cuts < 2; ++back) {
+      const Event& event = recording_.events[frame_.step - back];
+      if (std::holds_alternative<recorded::GjkBegan>(event) || std::holds_alternative<recorded::PolytopeSeeded>(event)) return;
+      const auto* e = std::get_if<recorded::SimplexReduced>(&event);
+      if (!e || e->before.size() == e->region.size()) continue;
+      ++cuts;
+      for (const int v : e->before) {
+        if (std::find(e->region.begin(), e->region.end(), v) != e->region.end() || vertex(v)) continue;
+        for (std::size_t k = frame_.step - back; k-- > 0;)
+          if (const auto* query = std::get_if<recorded::SupportQueried>(&recording_.events[k]); query && query->vertex == v) {
+            picture_.points.push_back({to_view(query->w), palette_.dropped.with_alpha(cuts == 1 ? 0.55 : 0.3), 3.5, Mark::disc, -1});
+            break;
+          }
+      }
+    }
+  }
+
+  /// The surface of A - B is nowhere nearer than the one ring and somewhere no farther than the other.
+  void bound_rings() {
+    if (!settings_.bounds || meshes_.dimension == 1) return;
+    const auto ring_at = [&](double bound, Colour colour) {
+      const double r = std::abs(bound + meshes_.radius);
+      if (!std::isfinite(r) || !(r > 1e-3 * unit()) || r > 50 * unit()) return;
+      if (flat()) ring(r, ViewPoint::UnitX(), ViewPoint::UnitY(), colour);
+      else ring(r, projection_.right(), projection_.up(), colour);
+    };
+    if (frame_.upper_bound) ring_at(*frame_.upper_bound, palette_.text_soft.with_alpha(0.5));
+    if (frame_.lower_bound && frame_.lower_bound != frame_.upper_bound) ring_at(*frame_.lower_bound, palette_.text_faint.with_alpha(0.4));
   }
 
   void simplex() {
@@ -295,14 +378,14 @@ class Painter {
 
   void vertices() {
     for (const auto& [number, v] : frame_.vertices) {
-      const std::string letter = simplex_letter(frame_, number);
+      const std::string letter = letter_of(number);
       const bool dropped = std::find(frame_.dropped.begin(), frame_.dropped.end(), number) != frame_.dropped.end();
       const bool newest = frame_.newest == number;
       if (dropped && !settings_.dropped) continue;
       const ViewPoint w = to_view(v.w);
       const Colour colour = newest ? palette_.newest : dropped ? palette_.dropped : palette_.simplex;
       picture_.points.push_back({w, colour, newest ? 6.5 : dropped ? 4.0 : letter.empty() ? 3.5 : 6.0, Mark::disc, number});
-      if (settings_.selected == number) mark_selected(w);
+      if (settings_.selected == number || settings_.pointed == number) mark_selected(w);
       if (!letter.empty()) label(w, letter, palette_.text);
       else if (dropped) label(w, "dropped", palette_.dropped);
       else if (newest) label(w, "w", palette_.newest);

@@ -15,7 +15,11 @@ struct ViewSettings {
   bool dropped = true;        ///< dropped vertices and removed faces
   bool labels = true;
   bool grid = true;
+  bool regions = true;        ///< the Voronoi region of the part that is kept
+  bool bounds = true;         ///< rings about the origin, as far out as the bounds
+  bool newest_first = true;   ///< A is the newest vertex of the simplex; else the oldest
   std::optional<int> selected;  ///< a vertex, marked in both views
+  std::optional<int> pointed;   ///< a vertex under the pointer, lit in both views
 };
 
 /// Display hulls of a scene: made once, drawn at every step.
@@ -35,7 +39,7 @@ Picture difference_picture(const SceneMeshes& meshes, const Recording& recording
 Camera fit_world(const SceneMeshes& meshes);
 Camera fit_difference(const SceneMeshes& meshes, const Recording& recording);
 
-/// The letter a vertex goes by at a step: A for the newest of the simplex, then B, C, D; "" when it is not in it.
-std::string simplex_letter(const Frame& frame, int vertex);
+/// The letter a vertex goes by at a step: A for the newest of the simplex (or the oldest), then B, C, D; "" when it is not in it.
+std::string simplex_letter(const Frame& frame, int vertex, bool newest_first = true);
 
 }  // namespace gjkdbg

@@ -6,6 +6,10 @@
 
 #include "debugger/view/explain.h"
 #include "debugger/view/input.h"
+#include "debugger/view/scene_code.h"
+#include "recordings/json_writing.h"
+
+#include <nlohmann/json.hpp>
 
 namespace gjkdbg {
 
@@ -27,6 +31,17 @@ void App::open(const std::filesystem::path& file) {
 
 void App::open_gallery(const std::string& name) { open(gallery_.file(name)); }
 
+void App::compare(const std::filesystem::path& file) {
+  try {
+    Session read;
+    read.open(file);
+    session.compare_with(read.recording(), read.title());
+    message.clear();
+  } catch (const Error& e) {
+    message = e.line();
+  }
+}
+
 void App::fit_views() {
   const Camera world = world_camera, difference = difference_camera;
   world_camera = fit_world(session.meshes());
@@ -38,6 +53,12 @@ void App::fit_views() {
 
 void App::frame() {
   session.tick(ImGui::GetIO().DeltaTime);
+  thumbnails_.next_frame();
+  notice_left_ = std::max(0.f, notice_left_ - ImGui::GetIO().DeltaTime);
+  if (preferences.dark != theme.dark) apply_colours(theme, preferences.dark);
+  settings.difference = preferences.difference, settings.support_plane = preferences.support_plane, settings.dropped = preferences.dropped;
+  settings.labels = preferences.labels, settings.grid = preferences.grid, settings.regions = preferences.regions, settings.bounds = preferences.bounds;
+  settings.newest_first = preferences.newest_first;
   if (session.is_open() && fitted_ != session.opened()) fit_views(), fitted_ = session.opened();
   keys();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
@@ -46,21 +67,74 @@ void App::frame() {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   ImGui::Begin("gjkdbg", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::PopStyleVar();
-  const float gap = theme.px(6), top = theme.px(48);
-  const bool narrow = size.x < theme.px(1180);
-  top_bar({0, 0, size.x, top});
-  const float left = narrow ? 0 : theme.px(left_width_), right = theme.px(narrow ? 280 : right_width_);
-  const float bottom = std::min(theme.px(bottom_height_), size.y * 0.38f);
-  const Area middle{left + gap, top + gap, size.x - left - right - 3 * gap, size.y - top - bottom - 3 * gap};
-  if (session.is_open()) {
-    if (!narrow) left_panel({gap, top + gap, left - gap, size.y - top - 2 * gap});
-    view_panels(*this, middle, true);
-    timeline_panel(*this, {middle.x, middle.y + middle.height + gap, middle.width, bottom});
-    step_panel(*this, {size.x - right - gap, top + gap, right, size.y - top - 2 * gap});
-  }
+  panels({0, 0, size.x, size.y});
   ImGui::End();
   key_sheet();
-  open_dialog();
+  dialogs();
+}
+
+void App::panels(const Area& window) {
+  const float gap = theme.px(6), top = theme.px(48);
+  top_bar({0, 0, window.width, top});
+  if (!session.is_open()) return;
+  const float height = window.height - top - 2 * gap;
+  if (lecture) {
+    const float bottom = std::max(theme.px(190), window.height * 0.27f);
+    view_panels(*this, {gap, top + gap, window.width - 2 * gap, height - bottom - gap}, true);
+    lecture_panel({gap, top + gap + height - bottom, window.width - 2 * gap, bottom});
+    banner({gap, top + gap, window.width - 2 * gap, theme.px(40)});
+    return;
+  }
+  const bool narrow = window.width < theme.px(1180);
+  Preferences& p = preferences;
+  const float rail = theme.px(44);
+  const float left = narrow ? rail : std::min(theme.px(p.left), window.width * 0.35f), right = std::min(theme.px(p.right), window.width * (narrow ? 0.29f : 0.4f));
+  const float bottom = std::min(theme.px(p.bottom), window.height * 0.6f);
+  const Area middle{left + 2 * gap, top + gap, window.width - left - right - 4 * gap, height - bottom - gap};
+  if (narrow) icon_rail({gap, top + gap, left, height});
+  else left_panel({gap, top + gap, left, height});
+  view_panels(*this, middle, true);
+  timeline_panel(*this, {middle.x, middle.y + middle.height + gap, middle.width, bottom});
+  step_panel(*this, {window.width - right - gap, top + gap, right, height});
+  if (!narrow) splitter("##left", {left + gap, top + gap, gap, height}, true, p.left, 200, 460, 1);
+  splitter("##right", {window.width - right - 2 * gap, top + gap, gap, height}, true, p.right, 240, 560, -1);
+  splitter("##bottom", {middle.x, middle.y + middle.height, middle.width, gap}, false, p.bottom, 130, 520, -1);
+  banner({middle.x + gap, middle.y + gap, middle.width - 2 * gap, theme.px(40)});
+}
+
+/// The gap between two panels: dragging it moves the border, a double click puts it back.
+void App::splitter(const char* name, const Area& area, bool vertical, float& value, float low, float high, float sign) {
+  ImGui::SetCursorScreenPos({area.x, area.y});
+  ImGui::InvisibleButton(name, {area.width, area.height});
+  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
+    ImGui::SetMouseCursor(vertical ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+    ImGui::GetWindowDrawList()->AddRectFilled({area.x + (vertical ? area.width / 3 : 0), area.y + (vertical ? 0 : area.height / 3)},
+                                              {area.x + area.width * (vertical ? 2.f / 3 : 1), area.y + area.height * (vertical ? 1 : 2.f / 3)}, packed(theme.palette.accent));
+  }
+  const ImVec2 moved = ImGui::GetIO().MouseDelta;
+  if (ImGui::IsItemActive()) value = std::clamp(value + sign * (vertical ? moved.x : moved.y) / theme.scale, low, high);
+}
+
+/// What went wrong, over the views, until something succeeds or it is clicked away; what was done, for a while.
+void App::banner(const Area& area) {
+  const bool error = !message.empty();
+  if (!error && notice_left_ <= 0) return;
+  const std::string& text = error ? message : notice;
+  const float wrap = area.width - theme.px(60);
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, vec((error ? theme.palette.newest : theme.palette.support).with_alpha(0.92)));
+  begin_area("banner", {area.x, area.y, std::min(area.width, size.x + theme.px(60)), size.y + theme.px(22)});
+  ImGui::PushStyleColor(ImGuiCol_Text, vec(rgb(0xffffff)));
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + wrap);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  if (error && ImGui::IsWindowHovered()) {
+    ImGui::SetTooltip("click to close");
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) message.clear();
+  }
+  ImGui::EndChild();
+  ImGui::PopStyleColor();
 }
 
 void App::picture_frame() {
@@ -88,6 +162,24 @@ void App::picture_frame() {
   ImGui::End();
 }
 
+/// For a hall: the step in letters that the last row can read, and the scrubber.
+void App::lecture_panel(const Area& area) {
+  if (begin_area("lecture", area)) {
+    scrubber(*this);
+    const Explanation e = explain(session.recording(), session.frame());
+    ImGui::Dummy({0, theme.px(4)});
+    ImGui::PushFont(theme.lecture_title);
+    ImGui::TextUnformatted(e.title.c_str());
+    ImGui::PopFont();
+    ImGui::PushFont(theme.lecture);
+    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
+    ImGui::TextWrapped("%s", e.text.c_str());
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+  }
+  ImGui::EndChild();
+}
+
 void App::top_bar(const Area& area) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {theme.px(16), theme.px(9)});
   begin_area("top", area);
@@ -98,27 +190,23 @@ void App::top_bar(const Area& area) {
   ImGui::PopFont();
   ImGui::SameLine(0, theme.px(20));
   ImGui::PushStyleColor(ImGuiCol_Button, vec(theme.palette.panel));
-  if (ImGui::Button("Gallery")) ImGui::OpenPopup("gallery");
-  ImGui::SameLine(0, theme.px(2));
-  if (ImGui::Button("Open")) asking_file_ = true, saving_ = false;
-  ImGui::SameLine(0, theme.px(2));
-  if (ImGui::Button("Save")) asking_file_ = true, saving_ = true;
-  ImGui::SameLine(0, theme.px(2));
-  if (ImGui::Button(theme.dark ? "Light" : "Dark")) apply_colours(theme, !theme.dark);
-  ImGui::SameLine(0, theme.px(2));
-  if (ImGui::Button("Keys")) show_keys = !show_keys;
+  const auto button = [&](const char* name, const char* tip) {
+    const bool pressed = ImGui::Button(name);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip);
+    ImGui::SameLine(0, theme.px(2));
+    return pressed;
+  };
+  if (button("Open", "Open a scene or a recording (Ctrl-O)")) ask(Asking::open);
+  if (button("Save", "Save the scene, the recording, a picture or the replay (Ctrl-S)")) ask(Asking::save);
+  if (button("Find", "Find a step (Ctrl-F)")) ask(Asking::find);
+  if (button("Explain", "Big text, for a hall (E)")) lecture = !lecture;
+  if (button(theme.dark ? "Light" : "Dark", "The other colours (T)")) preferences.dark = !preferences.dark;
+  if (button("Keys", "All keys (?)")) show_keys = !show_keys;
   ImGui::PopStyleColor();
-  ImGui::SetNextWindowSize({theme.px(300), theme.px(420)});
-  if (ImGui::BeginPopup("gallery")) {
-    gallery_panel(*this);
-    ImGui::EndPopup();
-  }
   if (session.is_open()) {
-    const Settings& s = session.recording().settings;
     const bool overlap = session.recording().result.intersecting;
     const std::string result = result_text(session.recording());
-    const std::string method = std::string(method_names[static_cast<std::size_t>(s.name)]) + "  \xC2\xB7  " + std::string(query_names[static_cast<std::size_t>(session.scene().scene.query)]) +
-                               "  \xC2\xB7  " + std::string(scalar_names[static_cast<std::size_t>(s.scalar)]);
+    const std::string method = method_text(session.recording().settings) + "  \xC2\xB7  " + std::string(query_names[static_cast<std::size_t>(session.scene().scene.query)]);
     const auto width = [&](const std::string& text) { return theme.small->CalcTextSizeA(theme.small->FontSize, 1e6f, 0, text.c_str()).x + theme.px(22); };
     const float chips = width(result) + width(method) + theme.px(8), title = ImGui::CalcTextSize(session.title().c_str()).x;
     const float middle = area.width / 2 - title / 2, here = ImGui::GetItemRectMax().x + theme.px(16);
@@ -147,12 +235,41 @@ void App::left_panel(const Area& area) {
     ImGui::SameLine(0, theme.px(6));
     tab("Scene", LeftTab::scene);
     ImGui::Dummy({0, theme.px(4)});
-    if (!message.empty()) {
-      ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.newest));
-      ImGui::TextWrapped("%s", message.c_str());
-      ImGui::PopStyleColor();
-    }
     left_tab == LeftTab::gallery ? gallery_panel(*this) : scene_panel(*this);
+  }
+  ImGui::EndChild();
+}
+
+/// Where there is no room for the left panel: two icons that open it.
+void App::icon_rail(const Area& area) {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {theme.px(5), theme.px(8)});
+  begin_area("rail", area);
+  ImGui::PopStyleVar();
+  const auto icon = [&](const char* name, const char* popup, const char* tip, bool gallery) {
+    const ImVec2 at = ImGui::GetCursorScreenPos(), size{theme.px(34), theme.px(34)};
+    if (ImGui::Button(name, size)) ImGui::OpenPopup(popup);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip);
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    const ImU32 colour = packed(theme.palette.text);
+    const auto px = [&](float x, float y) { return ImVec2{at.x + theme.px(x), at.y + theme.px(y)}; };
+    if (gallery) {
+      for (const float x : {9.f, 19.f})
+        for (const float y : {9.f, 19.f}) draw->AddRectFilled(px(x, y), px(x + 7, y + 7), colour, theme.px(1.5f));
+    } else {
+      for (const auto& [y, knob] : {std::pair(10.f, 21.f), {17.f, 12.f}, {24.f, 18.f}}) {
+        draw->AddLine(px(8, y), px(26, y), colour, theme.px(1.5f));
+        draw->AddCircleFilled(px(knob, y), theme.px(3), colour, 12);
+      }
+    }
+  };
+  icon("##gallery", "gallery popup", "Gallery (G)", true);
+  icon("##scene", "scene popup", "Scene: bodies, method, what is shown", false);
+  for (const bool gallery : {true, false}) {
+    ImGui::SetNextWindowPos({area.x + area.width + theme.px(4), area.y});
+    ImGui::SetNextWindowSize({theme.px(290), std::min(area.height, theme.px(620))});
+    if (!ImGui::BeginPopup(gallery ? "gallery popup" : "scene popup")) continue;
+    gallery ? gallery_panel(*this) : scene_panel(*this);
+    ImGui::EndPopup();
   }
   ImGui::EndChild();
 }
@@ -167,17 +284,24 @@ void App::step_keys(bool shift, bool control) {
   else session.step_by(direction);
 }
 
+void App::control_keys(bool shift) {
+  if (key_pressed(Key::z) && session.can_undo()) session.undo();
+  if (key_pressed(Key::y) && session.can_redo()) session.redo();
+  if (key_pressed(Key::o)) ask(Asking::open);
+  if (key_pressed(Key::s)) ask(Asking::save);
+  if (key_pressed(Key::f)) ask(Asking::find);
+  if (key_pressed(Key::g)) ask(Asking::go_to);
+  if (key_pressed(Key::c)) {
+    ImGui::SetClipboardText(shift ? scene_as_cpp(session.scene()).c_str() : (pretty_json(scene_to_json(session.scene())) + "\n").c_str());
+    note(shift ? "the scene is copied as C++" : "the scene is copied as JSON");
+  }
+}
+
 void App::keys() {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.WantTextInput || !session.is_open()) return;
   step_keys(io.KeyShift, io.KeyCtrl);
-  if (io.KeyCtrl) {
-    if (key_pressed(Key::z) && session.can_undo()) session.undo();
-    if (key_pressed(Key::y) && session.can_redo()) session.redo();
-    if (key_pressed(Key::o)) asking_file_ = true, saving_ = false;
-    if (key_pressed(Key::s)) asking_file_ = true, saving_ = true;
-    return;
-  }
+  if (io.KeyCtrl) return control_keys(io.KeyShift);
   if (key_pressed(Key::home)) session.playing = false, session.go_to(0);
   if (key_pressed(Key::end)) session.playing = false, session.go_to(session.count() - 1);
   if (key_pressed(Key::space)) session.toggle_play();
@@ -185,14 +309,23 @@ void App::keys() {
   if (key_pressed(Key::m)) session.add_bookmark();
   if (key_pressed(Key::left_bracket)) session.loop = true, session.loop_from = session.step();
   if (key_pressed(Key::right_bracket)) session.loop = true, session.loop_to = session.step();
-  if (key_pressed(Key::f)) fit_views();
-  if (key_pressed(Key::v)) layout = static_cast<Layout>((static_cast<int>(layout) + 1) % 3);
-  if (key_pressed(Key::g)) left_tab = left_tab == LeftTab::gallery ? LeftTab::scene : LeftTab::gallery;
-  if (key_pressed(Key::t)) apply_colours(theme, !theme.dark);
-  if (key_pressed(Key::slash) || key_pressed(Key::f1)) show_keys = !show_keys;
-  if (key_pressed(Key::escape)) show_keys = false, settings.selected.reset();
+  if (key_pressed(Key::f3)) {
+    if (const auto step = find_text(session, find_buffer_, session.step(), io.KeyShift)) session.go_to(*step);
+  }
   for (int i = 1; i <= 9; ++i)
     if (key_pressed(static_cast<Key>(static_cast<int>(Key::digit_1) + i - 1)) && session.bookmarks.contains(i)) session.go_to(session.bookmarks[i]);
+  view_keys();
+}
+
+void App::view_keys() {
+  if (key_pressed(Key::f)) fit_views();
+  if (key_pressed(Key::v)) preferences.layout = static_cast<Layout>((static_cast<int>(preferences.layout) + 1) % 4);
+  if (key_pressed(Key::l)) preferences.linked_cameras = !preferences.linked_cameras;
+  if (key_pressed(Key::g)) left_tab = left_tab == LeftTab::gallery ? LeftTab::scene : LeftTab::gallery;
+  if (key_pressed(Key::t)) preferences.dark = !preferences.dark;
+  if (key_pressed(Key::e)) lecture = !lecture;
+  if (key_pressed(Key::slash) || key_pressed(Key::f1)) show_keys = !show_keys;
+  if (key_pressed(Key::escape)) show_keys = lecture = false, settings.selected.reset(), message.clear();
   const double right_angle = std::numbers::pi / 2;
   const auto look = [&](double yaw, double pitch) {
     for (Camera* c : {&world_camera, &difference_camera}) c->yaw = yaw, c->pitch = pitch;
@@ -206,9 +339,11 @@ void App::key_sheet() {
   if (!show_keys) return;
   static const std::pair<const char*, const char*> rows[] = {
       {"Right  Left   or   .  ,", "on, back an event"}, {"Shift with them", "an iteration"}, {"Ctrl with them", "a phase"}, {"Home  End", "first, last step"},
-      {"Space", "play, pause"}, {"[  ]", "loop from here, to here"}, {"B", "breakpoint here"}, {"M, 1 to 9", "bookmark, go to it"}, {"F, double click", "fit the views"},
-      {"1 2 3 on the pad", "front, right, top"}, {"V", "both views, or one"}, {"G", "gallery or scene"}, {"T", "dark or light"}, {"Ctrl-O  Ctrl-S", "open, save"},
-      {"Ctrl-Z  Ctrl-Y", "undo, redo"}, {"drag, right drag, wheel", "orbit, pan, zoom"}, {"click a vertex", "select it in both views"}, {"drag a ring A or B", "move the body"}};
+      {"Space", "play, pause"}, {"[  ]", "loop from here, to here"}, {"B", "breakpoint here"}, {"M, 1 to 9", "bookmark, go to it"}, {"Ctrl-F, F3, Shift-F3", "find, next, previous"},
+      {"Ctrl-G", "go to a step"}, {"F, double click", "fit the views"}, {"1 2 3 on the pad", "front, right, top"}, {"V", "side by side, stacked, one view"}, {"L", "link the cameras"},
+      {"G", "gallery or scene"}, {"T", "dark or light"}, {"E", "explain in big letters"}, {"Ctrl-O  Ctrl-S", "open, save"}, {"Ctrl-C, Ctrl-Shift-C", "copy the scene: JSON, C++"},
+      {"Ctrl-Z  Ctrl-Y", "undo, redo"}, {"drag, right drag, wheel", "orbit, pan, zoom"}, {"click a vertex", "select it in both views"}, {"click a number", "the step it comes from"},
+      {"drag a ring A or B", "move the body"}, {"drag its small disc", "turn the body"}};
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, vec(theme.palette.panel));
@@ -224,27 +359,89 @@ void App::key_sheet() {
   ImGui::PopStyleColor();
 }
 
-void App::open_dialog() {
-  if (asking_file_) {
-    ImGui::OpenPopup("File");
-    asking_file_ = false;
-    const std::string suggestion = saving_ ? session.title() + ".scene.json" : "";
-    std::strncpy(file_buffer_, suggestion.c_str(), sizeof file_buffer_ - 1);
+// --- Dialogs ----------------------------------------------------------------------------------------------------------
+
+void App::dialogs() {
+  if (asking_ != Asking::nothing) {
+    asked_ = std::exchange(asking_, Asking::nothing);
+    ImGui::OpenPopup("ask");
+    find_error_.clear();
+    go_to_ = session.is_open() ? static_cast<int>(session.step()) : 0;
+    const std::string suggestion = asked_ == Asking::save ? session.title() + ".scene.json" : "";
+    if (asked_ == Asking::save || asked_ == Asking::open || asked_ == Asking::compare) {
+      std::memset(file_buffer_, 0, sizeof file_buffer_);
+      std::strncpy(file_buffer_, suggestion.c_str(), sizeof file_buffer_ - 1);
+    }
   }
-  ImGui::SetNextWindowSize({theme.px(520), 0});
-  if (!ImGui::BeginPopupModal("File", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoSavedSettings)) return;
-  ImGui::TextUnformatted(saving_ ? "Save as (NAME.scene.json, or NAME.recording.json with every event)" : "Open a scene or a recording");
+  ImGui::SetNextWindowSize({std::min(theme.px(560), ImGui::GetIO().DisplaySize.x - theme.px(20)), 0});
+  if (!ImGui::BeginPopupModal("ask", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoSavedSettings)) return;
+  if (asked_ == Asking::find) find_dialog();
+  else if (asked_ == Asking::go_to) go_to_dialog();
+  else file_dialog();
+  if (key_pressed(Key::escape)) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+}
+
+void App::file_dialog() {
+  const bool saving = asked_ == Asking::save;
+  ImGui::TextUnformatted(saving ? "Save as" : asked_ == Asking::compare ? "Compare with a recording, or a scene" : "Open a scene or a recording");
+  if (saving) {
+    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
+    ImGui::TextWrapped("NAME.scene.json the scene, NAME.recording.json every event, NAME.png or .svg this step, NAME.gif the replay");
+    ImGui::PopStyleColor();
+  }
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
   const bool entered = ImGui::InputText("##file", file_buffer_, sizeof file_buffer_, ImGuiInputTextFlags_EnterReturnsTrue);
-  if (ImGui::Button(saving_ ? "Save" : "Open") || entered) {
-    if (saving_) save_requested = file_buffer_;
+  if (ImGui::Button(saving ? "Save" : asked_ == Asking::compare ? "Compare" : "Open") || entered) {
+    if (saving) save_requested = file_buffer_;
+    else if (asked_ == Asking::compare) compare(file_buffer_);
     else open(file_buffer_);
     ImGui::CloseCurrentPopup();
   }
   ImGui::SameLine();
-  if (ImGui::Button("Cancel") || key_pressed(Key::escape)) ImGui::CloseCurrentPopup();
-  ImGui::EndPopup();
+  if (ImGui::Button("Cancel")) ImGui::CloseCurrentPopup();
+}
+
+void App::find_dialog() {
+  ImGui::TextUnformatted("Find a step");
+  ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
+  ImGui::TextWrapped("A part of what the list shows, or a condition: upper_bound < 1e-3, region.size == 3, status == stalled, any warning");
+  ImGui::PopStyleColor();
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1);
+  const bool entered = ImGui::InputText("##find", find_buffer_, sizeof find_buffer_, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (entered) ImGui::SetKeyboardFocusHere(-1);
+  const bool next = ImGui::Button("Next (F3)") || entered;
+  ImGui::SameLine();
+  const bool previous = ImGui::Button("Previous (Shift-F3)");
+  ImGui::SameLine();
+  if (ImGui::Button("Close")) ImGui::CloseCurrentPopup();
+  if (next || previous) {
+    find_error_.clear();
+    try {
+      if (const auto step = find_text(session, find_buffer_, session.step(), previous)) session.go_to(*step);
+      else find_error_ = "no step has it";
+    } catch (const Error& e) {
+      find_error_ = e.message();
+    }
+  }
+  if (!find_error_.empty()) ImGui::TextColored(vec(theme.palette.newest), "%s", find_error_.c_str());
+  else ImGui::TextColored(vec(theme.palette.text_faint), "step %zu: %s", session.step(), summary(session.recording(), session.step()).c_str());
+}
+
+void App::go_to_dialog() {
+  ImGui::Text("Go to a step, 0 to %zu", session.count() - 1);
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1);
+  const bool entered = ImGui::InputInt("##step", &go_to_, 0, 0, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (ImGui::Button("Go") || entered) {
+    session.playing = false;
+    session.go_to(static_cast<std::size_t>(std::clamp<long>(go_to_, 0, static_cast<long>(session.count()) - 1)));
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel")) ImGui::CloseCurrentPopup();
 }
 
 }  // namespace gjkdbg

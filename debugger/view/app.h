@@ -3,8 +3,10 @@
 
 #include <string>
 
+#include "debugger/view/preferences.h"
 #include "debugger/view/session.h"
 #include "debugger/view/theme.h"
+#include "debugger/view/thumbnails.h"
 #include "recordings/gallery.h"
 
 namespace gjkdbg {
@@ -20,41 +22,64 @@ class App {
 
   Session session;
   Theme theme;
+  Preferences preferences;   ///< what a restart remembers
   ViewSettings settings;
   Camera world_camera, difference_camera;
-  enum class Layout { both, world, difference } layout = Layout::both;
   enum class LeftTab { gallery, scene } left_tab = LeftTab::gallery;
   bool show_keys = false;
+  bool lecture = false;       ///< big sentence, no side panels
   std::string message;        ///< the last error, shown until the next success
+  std::string notice;         ///< the last thing done ("copied"), shown for a while
   std::string save_requested; ///< a file name the person gave; the host writes it and clears this
+  std::string stop_when_text; ///< the condition as typed
+  std::string stop_when_error;
 
   /// Opens a file or a gallery scene; what is wrong is shown in the window.
   void open(const std::filesystem::path& file);
   void open_gallery(const std::string& name);
+  /// Another recording beside this one.
+  void compare(const std::filesystem::path& file);
   const Gallery& gallery() const { return gallery_; }
+  Thumbnails& thumbnails() { return thumbnails_; }
 
   /// One frame: keys, panels, views. Call between ImGui::NewFrame and ImGui::Render.
   void frame();
   /// Only the two views with a caption: what `render` writes.
   void picture_frame();
-  /// Whether the next frame would differ without any input: something plays.
-  bool moving() const { return session.playing; }
+  /// Whether the next frame would differ without any input: something plays, or a notice fades.
+  bool moving() const { return session.playing || notice_left_ > 0 || thumbnails_.busy(); }
   void fit_views();
+  void note(std::string text) { notice = std::move(text), notice_left_ = 3; }
+
+  enum class Asking { nothing, open, save, compare, find, go_to };
+  void ask(Asking what) { asking_ = what; }
 
  private:
   void keys();
   void step_keys(bool shift, bool control);
+  void control_keys(bool shift);
+  void view_keys();
   void top_bar(const Area& area);
   void left_panel(const Area& area);
+  void icon_rail(const Area& area);
+  void lecture_panel(const Area& area);
+  void panels(const Area& window);
+  void splitter(const char* name, const Area& area, bool vertical, float& value, float low, float high, float sign);
+  void banner(const Area& area);
   void key_sheet();
-  void open_dialog();
+  void dialogs();
+  void file_dialog();
+  void find_dialog();
+  void go_to_dialog();
 
   Gallery gallery_;
+  Thumbnails thumbnails_;
   int fitted_ = 0;
-  bool asking_file_ = false;
-  bool saving_ = false;
-  char file_buffer_[1024] = {};
-  float left_width_ = 270, right_width_ = 330, bottom_height_ = 260;  ///< logical pixels; splitters move them
+  Asking asking_ = Asking::nothing, asked_ = Asking::nothing;
+  std::string find_error_;
+  char file_buffer_[1024] = {}, find_buffer_[256] = {};
+  int go_to_ = 0;
+  float notice_left_ = 0;  ///< seconds
 };
 
 // --- Panels, each a file -------------------------------------------------------------------------------------------
@@ -63,7 +88,9 @@ void gallery_panel(App& app);
 void scene_panel(App& app);
 void step_panel(App& app, const Area& area);
 void timeline_panel(App& app, const Area& area);
-/// The two views side by side, or the one chosen.
+void transport(App& app);
+void scrubber(App& app);
+/// The two views, side by side or stacked, or the one chosen.
 void view_panels(App& app, const Area& area, bool interactive);
 
 // --- Small things all panels share ----------------------------------------------------------------------------------
@@ -71,12 +98,19 @@ void view_panels(App& app, const Area& area, bool interactive);
 /// A borderless child window over an area; call ImGui::EndChild after it.
 bool begin_area(const char* name, const Area& area, bool scrolls = false);
 void section(const Theme& theme, const char* title);
-/// A label on the left and a number in the monospaced font, right-aligned.
+/// A label on the left and a number in the monospaced font, right-aligned. With a source, the step that produced the number, a click goes there.
 void number_row(const Theme& theme, const char* label, const std::string& value, Colour colour);
+void number_row(App& app, const char* label, const std::string& value, Colour colour, std::optional<std::size_t> source);
 /// A rounded label.
 void chip(const Theme& theme, const std::string& text, Colour colour);
 Colour event_colour(const Palette& palette, const Event& event);
+/// "support", "simplex", …: a word for an event's kind in lists.
+const char* short_kind(const Event& event);
 /// The answer in a few words: "overlapping, depth 0.1".
 std::string result_text(const Recording& recording);
+/// "gjk · signed-volumes · double"
+std::string method_text(const Settings& settings);
+/// Where `text` is found: a condition if it compares something, else a part of the event's name and summary.
+std::optional<std::size_t> find_text(const Session& session, const std::string& text, std::size_t from, bool backwards);
 
 }  // namespace gjkdbg

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "debugger/render/step_pictures.h"
+#include "recordings/region_tests.h"
 
 namespace gjkdbg {
 
@@ -75,6 +76,35 @@ struct Explain {
   const Recording& recording;
   const Frame& frame;
 
+  /// The number that speaks against each dropped vertex: its weight in the projection of the origin on the part it was tried with.
+  std::string why_dropped(const recorded::SimplexReduced& e) const {
+    std::vector<AnyVector> points;
+    for (const int v : e.before) {
+      const auto found = frame.vertices.find(v);
+      if (found == frame.vertices.end()) return {};
+      points.push_back(found->second.w);
+    }
+    if (points.size() < 2 || points.size() > 4) return {};
+    std::string text;
+    const std::vector<RegionTest> tests = region_tests(points);
+    for (std::size_t i = 0; i < e.before.size(); ++i) {
+      if (std::find(e.region.begin(), e.region.end(), e.before[i]) != e.region.end()) continue;
+      // The largest part with this vertex that the kept ones belong to, and where its weight is negative.
+      const RegionTest* against = nullptr;
+      double weight = 0;
+      for (const RegionTest& test : tests)
+        for (std::size_t k = 0; k < test.part.size(); ++k)
+          if (test.part[k] == static_cast<int>(i) && test.weights[k] < 0 && (!against || test.part.size() > against->part.size())) against = &test, weight = test.weights[k];
+      if (!against) continue;
+      std::string rest;
+      for (const int k : against->part)
+        if (k != static_cast<int>(i)) rest += static_cast<char>('A' + k);
+      const char letter = static_cast<char>('A' + i);
+      text += std::string("; \xCE\xBB") + letter + " = " + short_number(weight) + " in " + rest + letter + ": the origin lies beyond " + (rest.size() == 1 ? "" : feature_name(rest.size()) + " ") + rest;
+    }
+    return text;
+  }
+
   Explanation operator()(const recorded::GjkBegan& e) const {
     return {"GJK begins", "The search starts along d = " + short_vector(e.direction) +
                               (recording.settings.initial_direction ? ", as the method says." : ", from A towards B. Any direction but zero would do.")};
@@ -104,6 +134,7 @@ struct Explain {
       text = "Of " + all + ", the " + feature_name(e.region.size()) + " " + kept + " is nearest the origin; " + letters(frame.dropped, e.before) + " cannot hold the nearest point and " +
              (frame.dropped.size() == 1 ? "is" : "are") + " dropped";
     }
+    text += why_dropped(e);
     if (e.closest.size() == 0) return {title, text + ". The next direction leads from it to the origin."};
     const double length = e.closest.norm();
     if (length == 0) return {title, text + ". The origin lies in it: the nearest point is the origin itself."};

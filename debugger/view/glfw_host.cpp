@@ -32,7 +32,7 @@ GLFWwindow* make_window(const WindowOptions& options) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-  GLFWwindow* window = glfwCreateWindow(options.width, options.height, "gjkdbg", nullptr, nullptr);
+  GLFWwindow* window = glfwCreateWindow(options.width > 0 ? options.width : options.preferences.width, options.height > 0 ? options.height : options.preferences.height, "gjkdbg", nullptr, nullptr);
   if (!window) throw Error("no-display", "no window with OpenGL 3.3 can be opened: " + Glfw::last_error());
   glfwMakeContextCurrent(window);
   glfwSwapInterval(1);
@@ -93,6 +93,7 @@ void loop(GLFWwindow* window, App& app, const WindowOptions& options) {
     draw(window, app);
     if (!app.save_requested.empty() && options.save) {
       app.message = options.save(app, app.save_requested);
+      if (app.message.empty()) app.note("saved " + app.save_requested);
       app.save_requested.clear();
     }
     if (app.session.title() != title) {
@@ -114,9 +115,21 @@ void run_window(const WindowOptions& options, Gallery gallery) {
   glfwSetDropCallback(window, open_dropped);
   ImGui_ImplGlfw_InitForOpenGL(window, true);
   ImGui_ImplOpenGL3_Init("#version 330 core");
+  app.preferences = options.preferences;
+  app.session.speed = app.preferences.speed;
   if (options.file.empty()) app.open_gallery(options.scene);
   else app.session.open(options.file);
+  if (!options.beside.empty()) {
+    Session beside;
+    beside.open(options.beside);
+    app.session.compare_with(beside.recording(), beside.title());
+  }
   loop(window, app, options);
+  if (options.remember) {
+    app.preferences.speed = app.session.speed;
+    glfwGetWindowSize(window, &app.preferences.width, &app.preferences.height);
+    options.remember(app.preferences);
+  }
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();

@@ -24,11 +24,14 @@ struct Image {
 using Save = std::function<std::string(const App&, const std::string& file)>;
 
 struct WindowOptions {
-  int width = 1440, height = 900;
+  int width = 0, height = 0;  ///< 0: as remembered
   float scale = 0;  ///< 0: the monitor's
   std::filesystem::path file;
   std::string scene = "box-box-deep";  ///< of the gallery, when no file is named
+  std::filesystem::path beside;        ///< a recording or scene to compare with
   Save save;
+  Preferences preferences;
+  std::function<void(const Preferences&)> remember;  ///< called when the window closes
   /// Asked every third of a second: a recording to show instead, when there is a new one. What is wrong goes into the string.
   std::function<std::optional<Recording>(std::string& message)> refresh;
 };

@@ -1,32 +1,10 @@
-// The left panel: the gallery in lessons, or the open scene with everything that can be edited.
+// The left panel: the open scene with everything that can be edited.
 #include <algorithm>
 #include <numbers>
 
 #include "debugger/view/app.h"
 
 namespace gjkdbg {
-
-void gallery_panel(App& app) {
-  const Theme& theme = app.theme;
-  for (const Lesson& lesson : app.gallery().lessons) {
-    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text));
-    const bool holds = std::find(lesson.scenes.begin(), lesson.scenes.end(), app.session.scene().scene.name) != lesson.scenes.end();
-    ImGui::SetNextItemOpen(holds, ImGuiCond_Once);
-    const bool open = ImGui::TreeNodeEx(lesson.title.c_str(), ImGuiTreeNodeFlags_SpanAvailWidth | ImGuiTreeNodeFlags_NoTreePushOnOpen);
-    ImGui::PopStyleColor();
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", lesson.text.c_str());
-    if (!open) continue;
-    ImGui::PushFont(theme.small);
-    for (const std::string& name : lesson.scenes) {
-      const bool current = app.session.scene().scene.name == name;
-      ImGui::PushStyleColor(ImGuiCol_Text, vec(current ? theme.palette.text : theme.palette.text_soft));
-      ImGui::SetCursorPosX(ImGui::GetCursorPosX() + theme.px(18));
-      if (ImGui::Selectable(name.c_str(), current)) app.open_gallery(name);
-      ImGui::PopStyleColor();
-    }
-    ImGui::PopFont();
-  }
-}
 
 namespace {
 
@@ -109,16 +87,53 @@ bool rotation(const Theme& theme, Pose& pose, int dimension) {
   return true;
 }
 
+/// A shape of another type and about the same size.
+Shape shape_of_type(const std::string& type, int dimension, double size) {
+  const auto corner = [&](double x, double y, double z) {
+    AnyVector p(dimension);
+    const double all[] = {x, y, z};
+    for (int i = 0; i < dimension; ++i) p[i] = all[i] * size;
+    return p;
+  };
+  const AnyVector half = corner(0.5, 0.5, 0.5);
+  if (type == "sphere" || type == "circle") return {Sphere{size / 2}, 0};
+  if (type == "box" || type == "interval") return {Box{-half, half, type == "box"}, 0};
+  if (type == "capsule") return {Capsule{size / 4, size / 3, 1}, 0};
+  if (type == "cylinder") return {Cylinder{size / 3, size / 2, 1}, 0};
+  if (type == "cone") return {Cone{size / 2, size / 2, 1}, 0};
+  if (type == "ellipsoid" || type == "ellipse") return {Ellipsoid{corner(0.6, 0.4, 0.3)}, 0};
+  if (type == "point") return {PointSet{PointSetKind::point, {corner(0, 0, 0)}, {}}, 0};
+  if (type == "segment") return {PointSet{PointSetKind::segment, {corner(-0.5, 0, 0), corner(0.5, 0, 0)}, {}}, 0};
+  if (type == "triangle") return {PointSet{PointSetKind::triangle, {corner(-0.5, -0.4, 0), corner(0.5, -0.4, 0), corner(0, 0.5, 0)}, {}}, 0};
+  if (type == "polygon") return {PointSet{PointSetKind::polygon, {corner(-0.5, -0.2, 0), corner(0, -0.5, 0), corner(0.5, -0.2, 0), corner(0.3, 0.4, 0), corner(-0.3, 0.4, 0)}, {}}, 0};
+  return {PointSet{PointSetKind::hull, {corner(-0.5, -0.3, -0.3), corner(0.5, -0.3, -0.3), corner(0, -0.3, 0.5), corner(0, 0.5, 0)}, {}}, 0};
+}
+
+bool choose_type(Shape& shape, int dimension, double size) {
+  static const std::vector<std::string> types[] = {{"interval", "point"},
+                                                   {"box", "circle", "ellipse", "capsule", "triangle", "polygon", "segment", "point"},
+                                                   {"box", "sphere", "capsule", "cylinder", "cone", "ellipsoid", "hull", "triangle", "segment", "point"}};
+  const std::string now = type_name(shape, dimension);
+  bool edited = false;
+  ImGui::SetNextItemWidth(-1);
+  if (!ImGui::BeginCombo("##type", now.c_str())) return false;
+  for (const std::string& type : types[dimension - 1])
+    if (ImGui::Selectable(type.c_str(), type == now) && type != now) shape = shape_of_type(type, dimension, size), edited = true;
+  ImGui::EndCombo();
+  return edited;
+}
+
 bool body(const Theme& theme, Body& b, int index, int dimension, double size) {
   ImGui::PushID(index);
   const auto speed = static_cast<float>(size * 0.005);
   ImGui::Dummy({0, theme.px(4)});
+  ImGui::AlignTextToFramePadding();
   ImGui::TextColored(vec(index == 0 ? theme.palette.body_a : theme.palette.body_b), "%s", index == 0 ? "A" : "B");
-  ImGui::SameLine();
-  const std::string type = type_name(b.shape, dimension);
-  ImGui::Text("%s%s%s", type.c_str(), b.name.empty() || b.name == "A" || b.name == "B" ? "" : "  ", b.name == "A" || b.name == "B" ? "" : b.name.c_str());
-  bool edited = std::visit(ShapeEditor{theme, dimension, speed}, b.shape.geometry);
-  if (b.shape.margin > 0) edited |= numbers(theme, "margin", &b.shape.margin, 1, speed, &zero);
+  if (!b.name.empty() && b.name != "A" && b.name != "B" && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", b.name.c_str());
+  ImGui::SameLine(theme.px(100));
+  bool edited = choose_type(b.shape, dimension, size);
+  edited |= std::visit(ShapeEditor{theme, dimension, speed}, b.shape.geometry);
+  edited |= numbers(theme, "margin", &b.shape.margin, 1, speed, &zero);
   edited |= numbers(theme, "position", b.pose.position.data(), dimension, speed);
   edited |= rotation(theme, b.pose, dimension);
   ImGui::PopID();
@@ -152,9 +167,13 @@ bool method(App& app, SceneFile& next) {
     next.scene.query = static_cast<Query>(query), edited = true;
     if (query != 0 && now.name == MethodName::gjk_boolean) next.method.name = MethodName::gjk;
   }
-  if (choice(theme, "method", name, method_names, query == 0 ? std::vector<int>{0, 1, 2} : std::vector<int>{0, 2})) next.method.name = static_cast<MethodName>(name), edited = true;
+  if (choice(theme, "method", name, method_names, query == 0 ? std::vector<int>{0, 1, 2, 3, 4} : std::vector<int>{0, 2, 3, 4})) next.method.name = static_cast<MethodName>(name), edited = true;
   int part = static_cast<int>(now.closest_point);
   if (now.name != MethodName::gjk_boolean && choice(theme, "closest point", part, closest_point_names, {0, 1, 2})) next.method.closest_point = static_cast<ClosestPoint>(part), edited = true;
+  int momentum = static_cast<int>(now.acceleration), rule = static_cast<int>(now.stopping), deep = static_cast<int>(now.penetration);
+  if (now.name == MethodName::gjk_accelerated && choice(theme, "momentum", momentum, acceleration_names, {0, 1})) next.method.acceleration = static_cast<Acceleration>(momentum), edited = true;
+  if (now.name != MethodName::gjk_boolean && choice(theme, "stopping", rule, stopping_names, {0, 1, 2, 3, 4})) next.method.stopping = static_cast<Stopping>(rule), edited = true;
+  if ((query == 2 || query == 3) && choice(theme, "when deep", deep, penetration_names, {0, 1, 2})) next.method.penetration = static_cast<Penetration>(deep), edited = true;
   if (choice(theme, "scalar", scalar, scalar_names, {0, 1})) next.method.scalar = static_cast<Scalar>(scalar), next.method.tolerance.reset(), edited = true;
   ImGui::AlignTextToFramePadding();
   ImGui::TextColored(vec(theme.palette.text_soft), "tolerance");
@@ -171,6 +190,73 @@ bool method(App& app, SceneFile& next) {
   ImGui::SetNextItemWidth(-1);
   if (ImGui::InputInt("##limit", &limit, 0, 0, ImGuiInputTextFlags_EnterReturnsTrue)) next.method.max_iterations = std::max(1, limit), edited = true;
   return edited;
+}
+
+}  // namespace
+
+namespace {
+
+/// Another run beside this one: the same scene by another method, or a recording.
+void comparison(App& app) {
+  const Theme& theme = app.theme;
+  Session& s = app.session;
+  section(theme, "COMPARE WITH");
+  ImGui::SetNextItemWidth(-1);
+  if (ImGui::BeginCombo("##compare", s.comparing() ? s.other_title().c_str() : "nothing")) {
+    if (ImGui::Selectable("nothing", !s.comparing())) s.stop_comparing();
+    const Settings& now = s.recording().settings;
+    const auto offer = [&](const char* title, auto change) {
+      Method method = s.scene().method;
+      change(method);
+      if (ImGui::Selectable(title)) app.message = s.compare_with(method, title);
+    };
+    if (now.scalar == Scalar::double_precision) offer("single precision", [](Method& m) { m.scalar = Scalar::float_precision, m.tolerance.reset(); });
+    else offer("double precision", [](Method& m) { m.scalar = Scalar::double_precision, m.tolerance.reset(); });
+    for (const ClosestPoint part : {ClosestPoint::signed_volumes, ClosestPoint::johnson, ClosestPoint::voronoi})
+      if (part != now.closest_point) offer(closest_point_names[static_cast<std::size_t>(part)].data(), [&](Method& m) { m.closest_point = part, m.name = MethodName::gjk; });
+    for (const MethodName name : {MethodName::gjk, MethodName::gjk_accelerated, MethodName::gjk_boolean, MethodName::mpr, MethodName::sat}) {
+      if (name == now.name || (name == MethodName::gjk_boolean && s.scene().scene.query != Query::intersect)) continue;
+      offer(method_names[static_cast<std::size_t>(name)].data(), [&](Method& m) { m.name = name; });
+    }
+    if (ImGui::Selectable("another recording ...")) app.ask(App::Asking::compare);
+    ImGui::EndCombo();
+  }
+  if (!s.comparing()) return;
+  ImGui::PushFont(theme.small);
+  if (const auto& parting = s.parting()) {
+    const std::string text = "they part at " + parting->what;
+    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.accent));
+    if (ImGui::Selectable(text.c_str())) s.go_to(parting->event);
+    ImGui::PopStyleColor();
+  } else {
+    ImGui::TextColored(vec(theme.palette.text_soft), "the same, event by event");
+  }
+  ImGui::PopFont();
+}
+
+/// Where playing stops, besides the breakpoints.
+void stop_when(App& app) {
+  const Theme& theme = app.theme;
+  section(theme, "STOP WHEN");
+  char buffer[256] = {};
+  app.stop_when_text.copy(buffer, sizeof buffer - 1);
+  ImGui::SetNextItemWidth(-1);
+  ImGui::PushFont(theme.mono);
+  if (ImGui::InputTextWithHint("##stop", "upper_bound < 1e-3", buffer, sizeof buffer)) {
+    app.stop_when_text = buffer;
+    app.stop_when_error.clear();
+    try {
+      app.session.stop_when = Condition(app.stop_when_text);
+    } catch (const Error& e) {
+      app.stop_when_error = e.message();
+    }
+  }
+  ImGui::PopFont();
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("kind == polytope_grown    status == stalled    region.size == 3    any warning    … and …    … or …");
+  if (app.stop_when_error.empty()) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.newest));
+  ImGui::TextWrapped("%s", app.stop_when_error.c_str());
+  ImGui::PopStyleColor();
 }
 
 }  // namespace
@@ -202,12 +288,19 @@ void scene_panel(App& app) {
   // A drag in a field is one edit, from press to release.
   if (!was_active && ImGui::IsAnyItemActive()) app.session.begin_edit();
   if (!ImGui::IsAnyItemActive()) app.session.end_edit();
+  comparison(app);
+  stop_when(app);
   section(theme, "SHOW");
-  ImGui::Checkbox("Minkowski difference", &app.settings.difference);
-  ImGui::Checkbox("support plane", &app.settings.support_plane);
-  ImGui::Checkbox("dropped and removed", &app.settings.dropped);
-  ImGui::Checkbox("labels", &app.settings.labels);
-  ImGui::Checkbox("grid", &app.settings.grid);
+  Preferences& p = app.preferences;
+  ImGui::Checkbox("Minkowski difference", &p.difference);
+  ImGui::Checkbox("support plane", &p.support_plane);
+  ImGui::Checkbox("region of the kept part", &p.regions);
+  ImGui::Checkbox("bounds as rings", &p.bounds);
+  ImGui::Checkbox("dropped and removed", &p.dropped);
+  ImGui::Checkbox("labels", &p.labels);
+  ImGui::Checkbox("A is the newest vertex", &p.newest_first);
+  ImGui::Checkbox("grid", &p.grid);
+  ImGui::Checkbox("cameras linked", &p.linked_cameras);
 }
 
 }  // namespace gjkdbg

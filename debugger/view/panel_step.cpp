@@ -5,16 +5,37 @@
 #include "debugger/view/app.h"
 #include "debugger/view/explain.h"
 #include "debugger/view/right_step.h"
+#include "recordings/region_tests.h"
 
 namespace gjkdbg {
 namespace {
+
+/// The last event up to this step for which `is` holds: where a number on show came from.
+template <class Is>
+std::optional<std::size_t> source(const Session& s, Is&& is) {
+  for (std::size_t i = s.step() + 1; i-- > 0;)
+    if (is(s.recording().events[i])) return i;
+  return std::nullopt;
+}
+template <class... Kinds>
+std::optional<std::size_t> last_of(const Session& s) {
+  return source(s, [](const Event& e) { return (std::holds_alternative<Kinds>(e) || ...); });
+}
+
+/// What runs at a step, for people.
+const char* phase_name(const Event& event, const Frame& frame) {
+  if (phase_of(event) == 1) return "EPA";
+  if (frame.stage == Frame::Stage::mpr || frame.mpr_status) return "MPR";
+  if (frame.stage == Frame::Stage::sat || frame.sat_status) return "SAT";
+  return "GJK";
+}
 
 void heading(App& app) {
   Session& session = app.session;
   const Theme& theme = app.theme;
   const Explanation e = explain(session.recording(), session.frame());
   ImGui::PushFont(theme.small);
-  const char* phase = phase_of(session.recording().events[session.step()]) == 0 ? "GJK" : "EPA";
+  const char* phase = phase_name(session.recording().events[session.step()], session.frame());
   ImGui::TextColored(vec(theme.palette.text_faint), "Step %zu of %zu  \xC2\xB7  %s iteration %d", session.step(), session.count() - 1, phase, session.frame().iteration);
   ImGui::PopFont();
   ImGui::PushFont(theme.title);
@@ -36,7 +57,7 @@ void weights(App& app) {
   for (std::size_t i = 0; i < frame.simplex.size(); ++i) {
     const float y = ImGui::GetCursorScreenPos().y;
     const bool newest = frame.newest == frame.simplex[i];
-    ImGui::TextColored(vec(newest ? theme.palette.newest : theme.palette.simplex), "%c", static_cast<char>('A' + i));
+    ImGui::TextColored(vec(newest ? theme.palette.newest : theme.palette.simplex), "%s", simplex_letter(frame, frame.simplex[i], app.settings.newest_first).c_str());
     ImGui::SameLine(theme.px(34));
     ImGui::PushFont(theme.mono);
     ImGui::TextColored(vec(theme.palette.text_faint), "#%d", frame.simplex[i]);
@@ -55,6 +76,81 @@ void weights(App& app) {
   for (const int v : frame.dropped) ImGui::TextColored(vec(theme.palette.dropped), "vertex #%d dropped", v);
 }
 
+/// Every part of the simplex as it was before the cut: its weights, whether it holds its projection, how close that was.
+void regions(App& app) {
+  const auto* e = std::get_if<recorded::SimplexReduced>(&app.session.recording().events[app.session.step()]);
+  if (!e || e->before.size() < 2 || e->before.size() > 4) return;
+  const Theme& theme = app.theme;
+  const Frame& frame = app.session.frame();
+  std::vector<AnyVector> points;
+  for (const int v : e->before) {
+    const auto found = frame.vertices.find(v);
+    if (found == frame.vertices.end()) return;
+    points.push_back(found->second.w);
+  }
+  section(theme, "EVERY PART, AND WHAT SPEAKS AGAINST IT");
+  ImGui::PushFont(theme.mono);
+  const float right = ImGui::GetWindowContentRegionMax().x;
+  for (const RegionTest& test : region_tests(points)) {
+    std::string part, why;
+    for (const int i : test.part) part += static_cast<char>('A' + (app.settings.newest_first ? i : static_cast<int>(points.size()) - 1 - i));
+    const std::size_t least = static_cast<std::size_t>(std::min_element(test.weights.begin(), test.weights.end()) - test.weights.begin());
+    if (!test.holds_projection) why = std::string("\xCE\xBB") + part[least] + " " + short_number(test.weights[least]);
+    else why = "|v| " + short_number(test.distance);
+    std::sort(part.begin(), part.end());
+    const Colour colour = test.nearest ? theme.palette.simplex : test.holds_projection ? theme.palette.text_soft : theme.palette.dropped;
+    ImGui::TextColored(vec(colour), "%s %s", test.nearest ? ">" : " ", part.c_str());
+    ImGui::SameLine(theme.px(86));
+    ImGui::TextColored(vec(colour), "%s", test.nearest ? "nearest" : test.holds_projection ? "farther" : "outside");
+    ImGui::SameLine(right - ImGui::CalcTextSize(why.c_str()).x);
+    ImGui::TextColored(vec(colour), "%s", why.c_str());
+    if (!ImGui::IsItemHovered()) continue;
+    std::string tip = "weights of the origin's projection:";
+    for (const double w : test.weights) tip += " " + short_number(w);
+    ImGui::SetTooltip("%s\nat %s; the test is %s from the other answer", tip.c_str(), short_number(test.distance).c_str(), short_number(std::abs(test.margin)).c_str());
+  }
+  ImGui::PopFont();
+}
+
+void counters(App& app) {
+  Session& s = app.session;
+  const Theme& theme = app.theme;
+  int supports = 0, cuts = 0, grown = 0;
+  for (std::size_t i = 0; i <= s.step(); ++i) {
+    supports += std::holds_alternative<recorded::SupportQueried>(s.recording().events[i]);
+    cuts += std::holds_alternative<recorded::SimplexReduced>(s.recording().events[i]);
+    grown += std::holds_alternative<recorded::PolytopeGrown>(s.recording().events[i]);
+  }
+  section(theme, "SO FAR");
+  std::string text = std::to_string(supports) + " supports";
+  if (cuts > 0) text += ", " + std::to_string(cuts) + (cuts == 1 ? " cut" : " cuts");
+  if (grown > 0) text += ", " + std::to_string(grown) + " grown";
+  number_row(theme, "counted", text, theme.palette.text_soft);
+}
+
+/// The run beside this one, at the same step.
+void comparison(App& app) {
+  Session& s = app.session;
+  if (!s.comparing()) return;
+  const Theme& theme = app.theme;
+  section(theme, ("BESIDE IT: " + s.other_title()).c_str());
+  const std::size_t k = std::min(s.step(), s.other().events.size() - 1);
+  ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.body_b));
+  ImGui::TextWrapped("%s: %s", short_kind(s.other().events[k]), summary(s.other(), k).c_str());
+  ImGui::PopStyleColor();
+  if (const auto& p = s.parting()) {
+    std::string fields;
+    for (const std::string& f : p->fields) fields += (fields.empty() ? ": " : ", ") + f;
+    const std::string text = (s.step() < p->event ? "the same so far; they part at step " : "they parted at step ") + std::to_string(p->event) + fields;
+    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
+    ImGui::TextWrapped("%s", text.c_str());
+    ImGui::PopStyleColor();
+  } else {
+    ImGui::TextColored(vec(theme.palette.text_soft), "the same, event by event");
+  }
+  number_row(theme, "its answer", result_text(s.other()), theme.palette.body_b);
+}
+
 void faces(App& app) {
   const Frame& frame = app.session.frame();
   if (frame.faces.empty()) return;
@@ -64,9 +160,9 @@ void faces(App& app) {
   if (!frame.added.empty() && !frame.removed.empty()) number_row(theme, "removed / added", std::to_string(frame.removed.size()) + " / " + std::to_string(frame.added.size()), theme.palette.frontier);
   if (frame.chosen && frame.faces.contains(*frame.chosen)) {
     const FrameFace& f = frame.faces.at(*frame.chosen);
-    number_row(theme, "nearest face", "#" + std::to_string(f.face), theme.palette.chosen);
-    number_row(theme, "its distance", short_number(f.distance), theme.palette.chosen);
-    number_row(theme, "its normal", short_vector(f.normal), theme.palette.chosen);
+    number_row(app, "nearest face", "#" + std::to_string(f.face), theme.palette.chosen, f.event);
+    number_row(app, "its distance", short_number(f.distance), theme.palette.chosen, f.event);
+    number_row(app, "its normal", short_vector(f.normal), theme.palette.chosen, f.event);
   }
 }
 
@@ -76,8 +172,9 @@ void bounds(App& app) {
   if (!frame.lower_bound && !frame.upper_bound) return;
   section(theme, "SIGNED DISTANCE OF THE BODIES");
   const auto text = [](const std::optional<double>& x) { return x ? short_number(*x) : std::string("unknown"); };
-  number_row(theme, "at most", text(frame.upper_bound), theme.palette.text);
-  number_row(theme, "at least", text(frame.lower_bound), theme.palette.text);
+  const auto from = last_of<recorded::SimplexReduced, recorded::GjkEnded, recorded::PolytopeGrown, recorded::PortalFound, recorded::AxisTested>(app.session);
+  number_row(app, "at most", text(frame.upper_bound), theme.palette.text, from);
+  number_row(app, "at least", text(frame.lower_bound), theme.palette.text, from);
   if (frame.lower_bound && frame.upper_bound) number_row(theme, "gap", short_number(*frame.upper_bound - *frame.lower_bound), theme.palette.text_soft);
 }
 
@@ -108,11 +205,11 @@ void vertex(App& app) {
   const auto number = app.settings.selected ? app.settings.selected : frame.newest;
   if (!number || !frame.vertices.contains(*number)) return;
   const FrameVertex& v = frame.vertices.at(*number);
-  const std::string letter = simplex_letter(frame, *number);
+  const std::string letter = simplex_letter(frame, *number, app.settings.newest_first);
   section(theme, ("VERTEX #" + std::to_string(*number) + (letter.empty() ? "" : " (" + letter + ")") + (app.settings.selected ? ", selected" : ", newest")).c_str());
-  number_row(theme, "w = a - b", short_vector(v.w), theme.palette.text);
-  number_row(theme, "a", short_vector(v.a), theme.palette.body_a);
-  number_row(theme, "b", short_vector(v.b), theme.palette.body_b);
+  number_row(app, "w = a - b", short_vector(v.w), theme.palette.text, v.event);
+  number_row(app, "a", short_vector(v.a), theme.palette.body_a, v.event);
+  number_row(app, "b", short_vector(v.b), theme.palette.body_b, v.event);
   if (ImGui::SmallButton(("from step " + std::to_string(v.event)).c_str())) app.session.go_to(v.event);
 }
 
@@ -123,7 +220,7 @@ void answer(App& app) {
   const Result& r = app.session.recording().result;
   section(theme, "RESULT");
   number_row(theme, "intersecting", r.intersecting ? "yes" : "no", r.intersecting ? theme.palette.newest : theme.palette.support);
-  if (r.signed_distance) number_row(theme, "signed distance", short_number(*r.signed_distance), theme.palette.text);
+  if (r.signed_distance) number_row(app, "signed distance", short_number(*r.signed_distance), theme.palette.text, last_of<recorded::GjkEnded, recorded::EpaEnded, recorded::MprEnded, recorded::SatEnded>(app.session));
   if (r.normal) number_row(theme, "normal", short_vector(*r.normal), theme.palette.text);
   if (r.witness_a) number_row(theme, "witness a", short_vector(*r.witness_a), theme.palette.body_a);
   if (r.witness_b) number_row(theme, "witness b", short_vector(*r.witness_b), theme.palette.body_b);
@@ -173,12 +270,15 @@ void step_panel(App& app, const Area& area) {
   heading(app);
   right_implementation(app);
   findings(app);
+  comparison(app);
   weights(app);
+  regions(app);
   faces(app);
   bounds(app);
   answer(app);
   algorithm(app);
   vertex(app);
+  counters(app);
   ImGui::EndChild();
 }
 

@@ -40,6 +40,8 @@ bool icon_button(const Theme& theme, const char* id, Icon icon, const char* tip,
   return pressed;
 }
 
+}  // namespace
+
 void transport(App& app) {
   Session& s = app.session;
   const Theme& theme = app.theme;
@@ -99,6 +101,15 @@ void scrubber(App& app) {
     const float x = at.x + (static_cast<float>(i) + 0.5f) * cell;
     draw->AddRectFilled({x - tick / 2, at.y + theme.px(19)}, {x + tick / 2, at.y + size.y - theme.px(6)}, packed(event_colour(p, s.recording().events[i])), 1);
   }
+  if (s.parting() && s.parting()->event < s.count()) {
+    const float x = at.x + (static_cast<float>(s.parting()->event) + 0.5f) * cell;
+    draw->AddLine({x, at.y}, {x, at.y + size.y}, packed(p.body_b), theme.px(2));
+    draw->AddText(theme.small, theme.small->FontSize * 0.85f, {x + theme.px(4), at.y + theme.px(2)}, packed(p.body_b), "parts");
+  }
+  for (const auto& [digit, step] : s.bookmarks) {
+    const float x = at.x + (static_cast<float>(step) + 0.5f) * cell;
+    draw->AddText(theme.small, theme.small->FontSize * 0.85f, {x - theme.px(3), at.y + size.y - theme.px(14)}, packed(p.accent), std::to_string(digit).c_str());
+  }
   for (const Finding& f : s.findings()) {
     const float x = at.x + (static_cast<float>(f.step) + 0.5f) * cell, r = theme.px(5);
     draw->AddTriangleFilled({x - r, at.y + theme.px(2)}, {x + r, at.y + theme.px(2)}, {x, at.y + theme.px(2) + 1.6f * r}, packed(p.newest));
@@ -117,6 +128,8 @@ void scrubber(App& app) {
   draw->AddTriangleFilled({x - theme.px(6), at.y - theme.px(7)}, {x + theme.px(6), at.y - theme.px(7)}, {x, at.y + theme.px(1)}, packed(p.text));
 }
 
+namespace {
+
 void legend(App& app) {
   const Theme& theme = app.theme;
   const Palette& p = theme.palette;
@@ -131,11 +144,6 @@ void legend(App& app) {
   }
   ImGui::NewLine();
   ImGui::PopFont();
-}
-
-const char* short_kind(const Event& event) {
-  static const char* const names[] = {"begin", "support", "simplex", "end", "polytope", "face", "grow", "end", "warning"};
-  return names[event.index()];
 }
 
 void event_list(App& app, float width, float height) {
@@ -171,7 +179,29 @@ void event_list(App& app, float width, float height) {
   ImGui::PopStyleColor();
 }
 
-/// The gap between the bounds, event by event, on a logarithmic scale: the certificate closing in.
+/// The gap between the bounds at a step.
+struct Sample {
+  std::size_t step;
+  double gap;
+  int phase;
+};
+
+std::vector<Sample> samples_of(const Recording& recording) {
+  std::vector<Sample> samples;
+  for (std::size_t i = 0; i < recording.events.size(); ++i)
+    std::visit(
+        [&](const auto& e) {
+          if constexpr (requires { e.upper_bound; }) samples.push_back({i, e.upper_bound - e.lower_bound, phase_of(recording.events[i])});
+        },
+        recording.events[i]);
+  const Result& r = recording.result;
+  if (r.upper_bound && r.lower_bound && phase_of(recording.events.back()) == 1) samples.push_back({recording.events.size() - 1, *r.upper_bound - *r.lower_bound, 1});
+  std::erase_if(samples, [](const Sample& x) { return !(x.gap > 0) || !std::isfinite(x.gap); });
+  return samples;
+}
+
+/// The gap between the bounds, event by event, on a logarithmic scale: the certificate closing in on the tolerance, down to the floor
+/// below which nothing can be told. With another run beside it, that one's too.
 void bounds_plot(App& app, float width, float height) {
   Session& s = app.session;
   const Theme& theme = app.theme;
@@ -181,31 +211,19 @@ void bounds_plot(App& app, float width, float height) {
   draw->AddRectFilled(at, {at.x + width, at.y + height}, packed(p.view), theme.px(6));
   draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(10), at.y + theme.px(6)}, packed(p.text_faint), "gap between the bounds, log scale");
   ImGui::Dummy({width, height});
-  struct Sample {
-    std::size_t step;
-    double gap;
-    int phase;
-  };
-  std::vector<Sample> samples;
-  for (std::size_t i = 0; i < s.count(); ++i) {
-    const Event& event = s.recording().events[i];
-    if (const auto* e = std::get_if<recorded::SimplexReduced>(&event)) samples.push_back({i, e->upper_bound - e->lower_bound, 0});
-    if (const auto* e = std::get_if<recorded::GjkEnded>(&event)) samples.push_back({i, e->upper_bound - e->lower_bound, 0});
-    if (const auto* e = std::get_if<recorded::PolytopeGrown>(&event)) samples.push_back({i, e->upper_bound - e->lower_bound, 1});
-  }
-  const Result& r = s.recording().result;
-  if (r.upper_bound && r.lower_bound && phase_of(s.recording().events.back()) == 1) samples.push_back({s.count() - 1, *r.upper_bound - *r.lower_bound, 1});
-  std::erase_if(samples, [](const Sample& x) { return !(x.gap > 0) || !std::isfinite(x.gap); });
-  if (samples.empty()) return;
-  double low = samples[0].gap, high = low;
-  for (const Sample& x : samples) low = std::min(low, x.gap), high = std::max(high, x.gap);
-  const double log_low = std::floor(std::log10(low)), log_high = std::max(log_low + 1, std::ceil(std::log10(high)));
+  const std::vector<Sample> samples = samples_of(s.recording()), others = s.comparing() ? samples_of(s.other()) : std::vector<Sample>();
+  if (samples.empty() && others.empty()) return;
+  const Settings& settings = s.recording().settings;
+  const double size = std::abs(s.recording().result.signed_distance.value_or(0));
+  const double floor = 2 * rounding_floor(s.scene().scene, settings), tolerance = std::max(settings.tolerance * size, 0.0);
+  double low = floor, high = floor;
+  for (const auto* list : {&samples, &others})
+    for (const Sample& x : *list) low = std::min(low, x.gap), high = std::max(high, x.gap);
+  const double log_low = std::floor(std::log10(low)) - 1, log_high = std::max(log_low + 1, std::ceil(std::log10(high)));
   const ImVec2 from{at.x + theme.px(52), at.y + theme.px(28)}, to{at.x + width - theme.px(14), at.y + height - theme.px(12)};
   const auto y_of = [&](double log) { return to.y - static_cast<float>((log - log_low) / (log_high - log_low)) * (to.y - from.y); };
-  const auto point = [&](const Sample& x) {
-    const float share = s.count() < 2 ? 0 : static_cast<float>(x.step) / static_cast<float>(s.count() - 1);
-    return ImVec2{from.x + share * (to.x - from.x), y_of(std::log10(x.gap))};
-  };
+  const std::size_t last = std::max(s.count(), s.comparing() ? s.other().events.size() : 0) - 1;
+  const auto x_of = [&](std::size_t step) { return from.x + (last == 0 ? 0 : static_cast<float>(step) / static_cast<float>(last)) * (to.x - from.x); };
   for (int i = 0; i <= 2; ++i) {
     const double log = std::round(log_low + (log_high - log_low) * i / 2);
     char text[16];
@@ -213,13 +231,26 @@ void bounds_plot(App& app, float width, float height) {
     draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(10), y_of(log) - theme.px(7)}, packed(p.text_faint), text);
     draw->AddLine({from.x, y_of(log)}, {to.x, y_of(log)}, packed(p.field), 1);
   }
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const Colour colour = samples[i].phase == 0 ? p.simplex : p.chosen;
-    if (i > 0 && samples[i - 1].phase == samples[i].phase) draw->AddLine(point(samples[i - 1]), point(samples[i]), packed(colour), theme.px(2));
-    draw->AddCircleFilled(point(samples[i]), theme.px(2.5f), packed(colour));
-  }
-  const float x = s.count() < 2 ? from.x : from.x + static_cast<float>(s.step()) / static_cast<float>(s.count() - 1) * (to.x - from.x);
-  draw->AddLine({x, from.y}, {x, to.y}, packed(p.text.with_alpha(0.6)), 1);
+  const auto level = [&](double value, const char* name, Colour colour, bool below) {
+    if (!(value >= low * 0.999) || value > high) return;
+    const float y = y_of(std::log10(value));
+    for (float x = from.x; x < to.x; x += theme.px(8)) draw->AddLine({x, y}, {std::min(x + theme.px(4), to.x), y}, packed(colour), 1);
+    draw->AddText(theme.small, theme.small->FontSize * 0.85f, {from.x + theme.px(4), below ? y + 1 : y - theme.px(13)}, packed(colour), name);
+  };
+  level(floor, "rounding floor", p.dropped, true);
+  if (tolerance > 1.5 * floor) level(tolerance, "tolerance", p.support, false);
+  const auto curve = [&](const std::vector<Sample>& list, bool other) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const Colour colour = other ? p.body_b : list[i].phase == 0 ? p.simplex : p.chosen;
+      const ImVec2 here{x_of(list[i].step), y_of(std::log10(list[i].gap))};
+      if (i > 0 && list[i - 1].phase == list[i].phase) draw->AddLine({x_of(list[i - 1].step), y_of(std::log10(list[i - 1].gap))}, here, packed(colour), theme.px(other ? 1.2f : 2));
+      if (other) draw->AddCircle(here, theme.px(3), packed(colour), 12, theme.px(1.2f));
+      else draw->AddCircleFilled(here, theme.px(2.5f), packed(colour));
+    }
+  };
+  curve(others, true);
+  curve(samples, false);
+  draw->AddLine({x_of(s.step()), from.y}, {x_of(s.step()), to.y}, packed(p.text.with_alpha(0.6)), 1);
 }
 
 }  // namespace

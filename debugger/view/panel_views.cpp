@@ -1,90 +1,15 @@
 // The two linked views: draws their pictures, orbits, pans, zooms, selects, moves bodies.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "debugger/view/app.h"
+#include "debugger/view/draw_items.h"
 
 namespace gjkdbg {
 namespace {
 
 ImVec2 at(const Projected& p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
-
-void draw_dashes(ImDrawList* draw, ImVec2 p, ImVec2 q, ImU32 colour, float width, float scale) {
-  const float length = std::hypot(q.x - p.x, q.y - p.y), dash = 7 * scale, gap = 5 * scale;
-  if (length < 1 || length > 20000) return;
-  const ImVec2 u{(q.x - p.x) / length, (q.y - p.y) / length};
-  for (float t = 0; t < length; t += dash + gap) {
-    const float end = std::min(t + dash, length);
-    draw->AddLine({p.x + u.x * t, p.y + u.y * t}, {p.x + u.x * end, p.y + u.y * end}, colour, width);
-  }
-}
-
-void draw_line(ImDrawList* draw, const FlatItem& item, float scale) {
-  const ImVec2 p = at(item.points[0]), q = at(item.points[1]);
-  const auto width = static_cast<float>(item.width) * scale;
-  if (item.stroke == Stroke::dashed) return draw_dashes(draw, p, q, packed(item.colour), width, scale);
-  const float length = std::hypot(q.x - p.x, q.y - p.y);
-  if (!item.arrow || length < 2) {
-    draw->AddLine(p, q, packed(item.colour), width);
-    return;
-  }
-  const float head = std::min((6 + 2 * static_cast<float>(item.width)) * scale, length * 0.6f), wide = head * 0.42f;
-  const ImVec2 u{(q.x - p.x) / length, (q.y - p.y) / length}, neck{q.x - u.x * head, q.y - u.y * head};
-  draw->AddLine(p, neck, packed(item.colour), width);
-  draw->AddTriangleFilled(q, {neck.x - u.y * wide, neck.y + u.x * wide}, {neck.x + u.y * wide, neck.y - u.x * wide}, packed(item.colour));
-}
-
-void draw_point(ImDrawList* draw, const FlatItem& item, const Theme& theme) {
-  const ImVec2 p = at(item.points[0]);
-  const float r = static_cast<float>(item.width) * theme.scale;
-  const ImU32 colour = packed(item.colour), rim = packed(theme.palette.view);
-  switch (item.mark) {
-    case Mark::disc:
-      draw->AddCircleFilled(p, r + 1.5f * theme.scale, rim, 24);
-      draw->AddCircleFilled(p, r, colour, 24);
-      break;
-    case Mark::ring: draw->AddCircle(p, r, colour, 24, 2 * theme.scale); break;
-    case Mark::square:
-      draw->AddRectFilled({p.x - r, p.y - r}, {p.x + r, p.y + r}, rim);
-      draw->AddRectFilled({p.x - r * 0.8f, p.y - r * 0.8f}, {p.x + r * 0.8f, p.y + r * 0.8f}, colour);
-      break;
-    case Mark::cross:
-      draw->AddLine({p.x - r, p.y}, {p.x + r, p.y}, colour, 2 * theme.scale);
-      draw->AddLine({p.x, p.y - r}, {p.x, p.y + r}, colour, 2 * theme.scale);
-      break;
-  }
-}
-
-void draw_items(ImDrawList* draw, const std::vector<FlatItem>& items, const Theme& theme) {
-  std::vector<ImVec2> polygon;
-  for (const FlatItem& item : items) {
-    switch (item.kind) {
-      case FlatItem::Kind::polygon: {
-        polygon.clear();
-        double area = 0;
-        for (std::size_t i = 0; i < item.points.size(); ++i) {
-          const Projected &p = item.points[i], &q = item.points[(i + 1) % item.points.size()];
-          area += p.x * q.y - q.x * p.y;
-          polygon.push_back(at(p));
-        }
-        if (area < 0) std::reverse(polygon.begin(), polygon.end());  // ImGui's soft rim wants one winding
-        const ImDrawListFlags before = draw->Flags;
-        draw->Flags &= ~ImDrawListFlags_AntiAliasedFill;  // neighbours share their edges: no soft seams between them
-        draw->AddConvexPolyFilled(polygon.data(), static_cast<int>(polygon.size()), packed(item.colour));
-        draw->Flags = before;
-        break;
-      }
-      case FlatItem::Kind::line: draw_line(draw, item, theme.scale); break;
-      case FlatItem::Kind::point: draw_point(draw, item, theme); break;
-      case FlatItem::Kind::label: {
-        const ImVec2 p = at(item.points[0]);
-        draw->AddText(theme.text, theme.text->FontSize, {p.x + 1, p.y + 1}, packed(theme.palette.view), item.text.c_str());
-        draw->AddText(theme.text, theme.text->FontSize, p, packed(item.colour), item.text.c_str());
-        break;
-      }
-    }
-  }
-}
 
 /// A mouse that orbits, pans and zooms. True when it did something.
 void steer(Camera& camera, const Projection& projection) {
@@ -127,84 +52,179 @@ ViewPoint middle(const DisplayMesh& mesh) {
   return (low + high) / 2;
 }
 
-/// A ring in each body's middle; dragging it moves the body in the picture's plane.
-void body_handles(App& app, const Projection& projection, ImDrawList* draw) {
-  static int dragged = -1;
-  const ImVec2 mouse = ImGui::GetIO().MousePos;
-  for (int i = 0; i < 2; ++i) {
-    const Projected p = projection(middle(i == 0 ? app.session.meshes().a : app.session.meshes().b));
-    const Colour colour = i == 0 ? app.theme.palette.body_a : app.theme.palette.body_b;
-    const float r = app.theme.px(9);
-    const bool near = ImGui::IsItemHovered() && std::hypot(mouse.x - p.x, mouse.y - p.y) < r + app.theme.px(4);
-    draw->AddCircle(at(p), r, packed(colour.with_alpha(near || dragged == i ? 1 : 0.55)), 24, app.theme.px(2));
-    draw->AddText(app.theme.small, app.theme.small->FontSize, {at(p).x - app.theme.px(4), at(p).y - app.theme.px(7)}, packed(colour), i == 0 ? "A" : "B");
-    if (near && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) dragged = i, app.session.begin_edit();
+/// What the mouse holds in the world view.
+struct Held {
+  int body = -1;
+  bool turning = false;
+};
+
+/// A body's ring, and the small disc beside it that turns the body.
+struct Handle {
+  ImVec2 centre, disc;
+  float radius;
+};
+Handle handle_of(const App& app, int body, const Projection& projection) {
+  const SceneMeshes& meshes = app.session.meshes();
+  const float r = app.theme.px(9);
+  const ImVec2 c = at(projection(middle(body == 0 ? meshes.a : meshes.b)));
+  return {c, {c.x + r * 1.9f, c.y - r * 1.5f}, r};
+}
+
+float distance(ImVec2 p, ImVec2 q) { return std::hypot(p.x - q.x, p.y - q.y); }
+
+/// Turns a body about the view's direction, by the angle that the pointer has gone round the body's middle.
+void turn(Body& body, const ViewPoint& axis, double angle, int dimension) {
+  if (dimension == 2) {
+    body.pose.rotation = PlaneAngle{to_plane_angle(body.pose.matrix).angle + angle};
+  } else {
+    const Eigen::Matrix3d turned = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix() * Eigen::Matrix3d(body.pose.matrix);
+    body.pose.rotation = to_quaternion(turned);
   }
-  if (dragged < 0) return;
+  body.pose.matrix = resolve(body.pose.rotation, dimension).matrix;
+}
+
+/// A ring in each body's middle: dragging it moves the body in the picture's plane; the disc beside it turns it.
+void body_handles(App& app, const Projection& projection, ImDrawList* draw, Held& held) {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const int dimension = app.session.scene().scene.dimension;
+  for (int i = 0; i < 2; ++i) {
+    const Handle h = handle_of(app, i, projection);
+    const Colour colour = i == 0 ? app.theme.palette.body_a : app.theme.palette.body_b;
+    const bool near = ImGui::IsItemHovered() && distance(mouse, h.centre) < h.radius + app.theme.px(3);
+    const bool near_disc = ImGui::IsItemHovered() && dimension > 1 && !near && distance(mouse, h.disc) < app.theme.px(7);
+    draw->AddCircle(h.centre, h.radius, packed(colour.with_alpha(near || (held.body == i && !held.turning) ? 1 : 0.55)), 24, app.theme.px(2));
+    if (dimension > 1) draw->AddCircleFilled(h.disc, app.theme.px(3.5f), packed(colour.with_alpha(near_disc || (held.body == i && held.turning) ? 1 : 0.6)), 16);
+    draw->AddText(app.theme.small, app.theme.small->FontSize, {h.centre.x - app.theme.px(4), h.centre.y - app.theme.px(7)}, packed(colour), i == 0 ? "A" : "B");
+    if (near) ImGui::SetTooltip("drag: move %s", i == 0 ? "A" : "B");
+    if (near_disc) ImGui::SetTooltip("drag: turn %s", i == 0 ? "A" : "B");
+    if ((near || near_disc) && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) held = {i, near_disc}, app.session.begin_edit();
+  }
+  if (held.body < 0) return;
   const ImVec2 delta = ImGui::GetIO().MouseDelta;
   if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
-    dragged = -1;
+    held = {};
     app.session.end_edit();
   } else if (delta.x != 0 || delta.y != 0) {
     SceneFile next = app.session.scene();
     next.expect.reset();
-    next.scene.bodies[static_cast<std::size_t>(dragged)].pose.position += projection.move(delta.x, delta.y).head(next.scene.dimension);
+    Body& body = next.scene.bodies[static_cast<std::size_t>(held.body)];
+    if (held.turning) {
+      const ImVec2 c = handle_of(app, held.body, projection).centre;
+      const double from = std::atan2(c.y - (mouse.y - delta.y), (mouse.x - delta.x) - c.x), to = std::atan2(c.y - mouse.y, mouse.x - c.x);
+      turn(body, projection.towards(), std::remainder(to - from, 2 * M_PI), dimension);
+    } else {
+      body.pose.position += projection.move(delta.x, delta.y).head(dimension);
+    }
     app.message = app.session.edit(next);
   }
 }
 
-void one_view(App& app, const Area& area, bool world, bool interactive) {
+/// Which run and which of its pictures a view shows.
+struct Shown {
+  bool world = true;
+  bool other = false;
+};
+
+std::string title_of(App& app, const Shown& shown) {
+  std::string title = shown.world ? "World" : "Minkowski difference A \xE2\x88\x92 B";
+  if (app.session.comparing()) title += std::string(": ") + (shown.other ? app.session.other_title() : method_text(app.session.recording().settings));
+  return title;
+}
+
+std::string subtitle_of(App& app, const Shown& shown) {
+  if (shown.other && app.session.step() >= app.session.other().events.size()) return "has ended at step " + std::to_string(app.session.other().events.size() - 1);
+  if (shown.world) return "the two bodies and their supports";
+  return app.session.meshes().radius > 0 ? "of the cores; dotted circle: the sum of the radii" : "simplex, direction, support plane, polytope";
+}
+
+void link_cameras(App& app, bool from_world) {
+  if (!app.preferences.linked_cameras) return;
+  const Camera& from = from_world ? app.world_camera : app.difference_camera;
+  Camera& to = from_world ? app.difference_camera : app.world_camera;
+  to.yaw = from.yaw, to.pitch = from.pitch;
+}
+
+/// Mouse on a view: handles, orbit, the vertex under the pointer.
+void interact(App& app, const Area& area, const Shown& shown, Camera& camera, const Projection& projection, const std::vector<FlatItem>& items,
+              std::optional<int>& pointed) {
+  static Held held;
   const Theme& theme = app.theme;
+  ImGui::SetCursorScreenPos({area.x, area.y});
+  ImGui::InvisibleButton("canvas", {area.width, area.height}, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
+  const bool movable = shown.world && !shown.other;
+  if (movable) body_handles(app, projection, ImGui::GetWindowDrawList(), held);
+  if (!(movable && held.body >= 0)) steer(camera, projection), link_cameras(app, shown.world);
+  if (!ImGui::IsItemHovered()) return;
+  const auto under = vertex_under(items, ImGui::GetIO().MousePos, theme.px(11));
+  pointed = under;
+  if (under) ImGui::SetTooltip("vertex #%d: click to select", *under);
+  const ImVec2 drag = ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 0);
+  if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && std::hypot(drag.x, drag.y) < 3) app.settings.selected = under;
+  if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) app.fit_views();
+}
+
+void one_view(App& app, const Area& area, const Shown& shown, bool interactive, std::optional<int>& pointed) {
+  const Theme& theme = app.theme;
+  Session& s = app.session;
   ImGui::PushStyleColor(ImGuiCol_ChildBg, vec(theme.palette.view));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-  begin_area(world ? "world" : "difference", area);
+  begin_area(shown.other ? "other" : shown.world ? "world" : "difference", area);
   ImDrawList* draw = ImGui::GetWindowDrawList();
-  Camera& camera = world ? app.world_camera : app.difference_camera;
+  Camera& camera = shown.world ? app.world_camera : app.difference_camera;
   const double header = theme.px(48);
-  const ViewRectangle rectangle{area.x, area.y + header * 0.6, area.width, area.height - header * 0.6};
-  const Projection projection(camera, rectangle);
-  const Frame& frame = app.session.frame();
-  const auto make = world ? world_picture : difference_picture;
-  const auto items = flatten(make(app.session.meshes(), app.session.recording(), frame, app.settings, theme.palette, projection), projection);
+  const Projection projection(camera, {area.x, area.y + header * 0.6, area.width, area.height - header * 0.6});
+  const auto make = shown.world ? world_picture : difference_picture;
+  const Recording& recording = shown.other ? s.other() : s.recording();
+  const auto items = flatten(make(shown.other ? s.other_meshes() : s.meshes(), recording, shown.other ? s.other_frame() : s.frame(), app.settings, theme.palette, projection), projection);
   draw_items(draw, items, theme);
   const ImVec2 title{area.x + theme.px(14), area.y + theme.px(10)};
-  draw->AddText(theme.text, theme.text->FontSize, title, packed(theme.palette.text), world ? "World" : "Minkowski difference A \xE2\x88\x92 B");
-  draw->AddText(theme.small, theme.small->FontSize, {title.x, title.y + theme.px(20)}, packed(theme.palette.text_faint),
-                world ? "the two bodies and their supports" : app.session.meshes().radius > 0 ? "of the cores; dotted circle: the sum of the radii" : "simplex, direction, support plane, polytope");
-  if (interactive) {
-    ImGui::InvisibleButton("canvas", {area.width, area.height}, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
-    static bool on_handle = false;
-    if (world) body_handles(app, projection, draw);
-    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && world) {
-      on_handle = false;
-      for (const DisplayMesh* mesh : {&app.session.meshes().a, &app.session.meshes().b}) {
-        const Projected p = projection(middle(*mesh));
-        on_handle = on_handle || std::hypot(ImGui::GetIO().MousePos.x - p.x, ImGui::GetIO().MousePos.y - p.y) < theme.px(13);
-      }
-    }
-    if (!(world && on_handle && ImGui::IsMouseDown(ImGuiMouseButton_Left))) steer(camera, projection);
-    const auto under = ImGui::IsItemHovered() ? vertex_under(items, ImGui::GetIO().MousePos, theme.px(11)) : std::nullopt;
-    if (under) ImGui::SetTooltip("vertex %d: click to select", *under);
-    const ImVec2 drag = ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 0);
-    if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && std::hypot(drag.x, drag.y) < 3) app.settings.selected = under;
-    if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) app.fit_views();
-  }
+  draw->AddText(theme.text, theme.text->FontSize, title, packed(shown.other ? theme.palette.body_b : theme.palette.text), title_of(app, shown).c_str());
+  draw->AddText(theme.small, theme.small->FontSize, {title.x, title.y + theme.px(20)}, packed(theme.palette.text_faint), subtitle_of(app, shown).c_str());
+  if (interactive) interact(app, area, shown, camera, projection, items, pointed);
   ImGui::EndChild();
   ImGui::PopStyleVar();
   ImGui::PopStyleColor();
+}
+
+/// The border between two views.
+void view_splitter(App& app, const Area& area, bool side_by_side, float whole) {
+  ImGui::SetCursorScreenPos({area.x, area.y});
+  ImGui::InvisibleButton("##views", {area.width, area.height});
+  if (!ImGui::IsItemHovered() && !ImGui::IsItemActive()) return;
+  ImGui::SetMouseCursor(side_by_side ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
+  const ImVec2 moved = ImGui::GetIO().MouseDelta;
+  if (ImGui::IsItemActive()) app.preferences.split = std::clamp(app.preferences.split + (side_by_side ? moved.x : moved.y) / whole, 0.15f, 0.85f);
+  if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) app.preferences.split = 0.5f;
 }
 
 }  // namespace
 
 void view_panels(App& app, const Area& area, bool interactive) {
   const float gap = app.theme.px(6);
-  if (app.layout == App::Layout::both) {
-    const float half = (area.width - gap) / 2;
-    one_view(app, {area.x, area.y, half, area.height}, true, interactive);
-    one_view(app, {area.x + half + gap, area.y, half, area.height}, false, interactive);
-  } else {
-    one_view(app, area, app.layout == App::Layout::world, interactive);
+  const Layout layout = app.preferences.layout;
+  std::optional<int> pointed;
+  const bool two = layout == Layout::both || layout == Layout::stacked || app.session.comparing();
+  if (!two) {
+    one_view(app, area, {layout == Layout::world, false}, interactive, pointed);
+    app.settings.pointed = pointed;
+    return;
   }
+  // Compared runs are shown by their differences, or by the world where that alone is chosen.
+  const Shown first{app.session.comparing() ? layout == Layout::world : true, false};
+  const Shown second{app.session.comparing() && layout == Layout::world, app.session.comparing()};
+  const float share = interactive ? app.preferences.split : 0.5f;
+  if (layout != Layout::stacked) {
+    const float left = (area.width - gap) * share;
+    one_view(app, {area.x, area.y, left, area.height}, first, interactive, pointed);
+    one_view(app, {area.x + left + gap, area.y, area.width - gap - left, area.height}, second, interactive, pointed);
+    if (interactive) view_splitter(app, {area.x + left, area.y, gap, area.height}, true, area.width);
+  } else {
+    const float above = (area.height - gap) * share;
+    one_view(app, {area.x, area.y, area.width, above}, first, interactive, pointed);
+    one_view(app, {area.x, area.y + above + gap, area.width, area.height - gap - above}, second, interactive, pointed);
+    if (interactive) view_splitter(app, {area.x, area.y + above, area.width, gap}, false, area.height);
+  }
+  app.settings.pointed = pointed;
 }
 
 }  // namespace gjkdbg

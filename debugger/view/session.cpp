@@ -17,12 +17,21 @@ int iteration_of(const Event& event) {
 }
 
 int phase_of(const Event& event) {
-  if (const auto* query = std::get_if<recorded::SupportQueried>(&event)) return query->phase == Phase::gjk ? 0 : 1;
-  return std::holds_alternative<recorded::GjkBegan>(event) || std::holds_alternative<recorded::SimplexReduced>(event) ||
-                 std::holds_alternative<recorded::GjkEnded>(event) || std::holds_alternative<recorded::Warning>(event)
-             ? 0
-             : 1;
+  if (const auto* query = std::get_if<recorded::SupportQueried>(&event)) return query->phase == Phase::seed || query->phase == Phase::epa ? 1 : 0;
+  return std::holds_alternative<recorded::PolytopeSeeded>(event) || std::holds_alternative<recorded::FaceChosen>(event) ||
+                 std::holds_alternative<recorded::PolytopeGrown>(event) || std::holds_alternative<recorded::EpaEnded>(event)
+             ? 1
+             : 0;
 }
+
+namespace {
+
+/// The same kind of event in the same iteration of the same phase.
+bool same_place(const Event& x, const Event& y) {
+  return x.index() == y.index() && iteration_of(x) == iteration_of(y) && phase_of(x) == phase_of(y);
+}
+
+}  // namespace
 
 void Session::open(const std::filesystem::path& file) {
   const std::string text = read_text_file(file);
@@ -51,6 +60,7 @@ void Session::open(Recording recording, std::string title) {
   title_ = std::move(title);
   undo_.clear(), redo_.clear(), breakpoints.clear(), bookmarks.clear();
   loop_from.reset(), loop_to.reset();
+  stop_comparing();
   playing = false;
   step_ = 0;
   ++opened_;
@@ -60,12 +70,72 @@ void Session::take(Recording recording) {
   SceneMeshes meshes = scene_meshes(recording.scene.scene);
   // Our own recordings are clean (tested), and checking each would make dragging slow.
   std::vector<Finding> findings = recording.generator == generator_name() ? std::vector<Finding>() : check(recording);
+  // The cursor stays at the event that corresponds: of the same kind and iteration, the same occurrence of it.
+  std::optional<Event> place;
+  std::size_t occurrence = 0;
+  if (replay_ && step_ + 1 < count()) {
+    place = recording_.events[step_];
+    for (std::size_t i = 0; i < step_; ++i) occurrence += same_place(recording_.events[i], *place);
+  }
+  const bool at_end = replay_ && step_ + 1 == count();
   replay_.reset();
   findings_ = std::move(findings);
   recording_ = std::move(recording);
   meshes_ = std::move(meshes);
   replay_.emplace(recording_);
-  step_ = std::min(step_, count() - 1);
+  step_ = at_end ? count() - 1 : std::min(step_, count() - 1);
+  if (place) keep_place(*place, occurrence);
+  if (other_method_) solve_other();
+}
+
+void Session::keep_place(const Event& at, std::size_t occurrence) {
+  for (std::size_t i = 0; i < count(); ++i)
+    if (same_place(recording_.events[i], at) && occurrence-- == 0) {
+      step_ = i;
+      return;
+    }
+}
+
+std::string Session::compare_with(const Method& method, std::string title) {
+  try {
+    resolve_settings(method, recording_.scene.scene);
+    other_method_ = method;
+    other_title_ = std::move(title);
+    solve_other();
+    return {};
+  } catch (const Error& e) {
+    return e.line();
+  }
+}
+
+void Session::solve_other() {
+  SceneFile scene = recording_.scene;
+  scene.method = *other_method_;
+  try {
+    Recording run = record(scene);
+    const std::optional<Method> method = other_method_;
+    compare_with(std::move(run), other_title_);
+    other_method_ = method;
+  } catch (const Error&) {
+    stop_comparing();  // the scene has become one that the other method does not take
+  }
+}
+
+void Session::compare_with(Recording recording, std::string title) {
+  if (recording.events.empty()) throw Error("no-events", "holds no events", "/events");
+  SceneMeshes meshes = scene_meshes(recording.scene.scene);
+  stop_comparing();
+  other_ = std::move(recording);
+  other_meshes_ = std::move(meshes);
+  other_replay_.emplace(other_);
+  other_title_ = std::move(title);
+  parting_ = first_difference(recording_, other_);
+}
+
+void Session::stop_comparing() {
+  other_replay_.reset();
+  other_method_.reset();
+  parting_.reset();
 }
 
 void Session::go_to(std::size_t step) { step_ = std::min(step, count() - 1); }
@@ -112,7 +182,7 @@ bool Session::tick(double seconds) {
       else playing = false;
     } else {
       ++step_;
-      if (breakpoints.contains(step_)) playing = false;
+      if (stops_at(step_)) playing = false;
     }
     moved = true;
   }

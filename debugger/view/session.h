@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "debugger/render/step_pictures.h"
+#include "debugger/view/condition.h"
 #include "recordings/check.h"
+#include "recordings/comparison.h"
 #include "recordings/replay.h"
 
 namespace gjkdbg {
@@ -49,9 +51,26 @@ class Session {
   bool tick(double seconds);
 
   std::set<std::size_t> breakpoints;  ///< playing stops here
+  Condition stop_when;                ///< and where this holds
+  bool stops_at(std::size_t step) const { return breakpoints.contains(step) || stop_when.holds(recording_, findings_, step); }
   std::map<int, std::size_t> bookmarks;
   void toggle_breakpoint();
   void add_bookmark();
+
+  // --- Comparing: another run beside this one, at the same step ------------------------------------------------------
+  /// The same scene by another method, solved again with every edit. The message of what is wrong; empty when it is shown.
+  std::string compare_with(const Method& method, std::string title);
+  /// Another recording, as it is.
+  void compare_with(Recording recording, std::string title);
+  void stop_comparing();
+  bool comparing() const { return other_replay_.has_value(); }
+  const Recording& other() const { return other_; }
+  const std::string& other_title() const { return other_title_; }
+  const SceneMeshes& other_meshes() const { return other_meshes_; }
+  /// The other run's frame at this step, or at its last.
+  const Frame& other_frame() { return other_replay_->at(std::min(step_, other_.events.size() - 1)); }
+  /// Where the two part, if they do.
+  const std::optional<Difference>& parting() const { return parting_; }
 
   // --- Editing: every edit solves again ----------------------------------------------------------------------------
   /// The message of what is wrong with the edited scene; empty when it was taken over.
@@ -66,6 +85,8 @@ class Session {
 
  private:
   void take(Recording recording);
+  void keep_place(const Event& at, std::size_t occurrence);
+  void solve_other();
 
   std::string title_;
   Recording recording_;
@@ -77,11 +98,18 @@ class Session {
   int opened_ = 0;
   std::vector<SceneFile> undo_, redo_;
   bool grouping_ = false, edit_open_ = false;
+
+  Recording other_;
+  std::optional<Replay> other_replay_;
+  std::optional<Method> other_method_;
+  SceneMeshes other_meshes_;
+  std::string other_title_;
+  std::optional<Difference> parting_;
 };
 
 /// The iteration an event belongs to, beginnings to the 0th; -1 for none.
 int iteration_of(const Event& event);
-/// 0 before and in GJK, 1 in EPA (its start included), per run.
+/// 0 before and in GJK, MPR and SAT, 1 in EPA (its start included), per run.
 int phase_of(const Event& event);
 
 }  // namespace gjkdbg

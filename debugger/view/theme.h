@@ -15,6 +15,8 @@ struct Theme {
   ImFont* small = nullptr;
   ImFont* title = nullptr;
   ImFont* mono = nullptr;
+  ImFont* lecture = nullptr;        ///< for a hall: the sentence
+  ImFont* lecture_title = nullptr;
 
   float px(float logical) const { return logical * scale; }
 };

@@ -25,6 +25,17 @@ void number_row(const Theme& theme, const char* label, const std::string& value,
   ImGui::PopFont();
 }
 
+void number_row(App& app, const char* label, const std::string& value, Colour colour, std::optional<std::size_t> source) {
+  number_row(app.theme, label, value, colour);
+  if (!source || *source >= app.session.count()) return;
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::GetWindowDrawList()->AddLine({low.x, high.y}, {high.x, high.y}, packed(colour), 1);
+  ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+  ImGui::SetTooltip("from step %zu: click to go there", *source);
+  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) app.session.playing = false, app.session.go_to(*source);
+}
+
 void chip(const Theme& theme, const std::string& text, Colour colour) {
   ImGui::PushFont(theme.small);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str()), at = ImGui::GetCursorScreenPos();
@@ -56,6 +67,34 @@ Colour event_colour(const Palette& p, const Event& event) {
     Colour operator()(const recorded::Warning&) const { return p.newest; }
   } colours{p};
   return std::visit(colours, event);
+}
+
+const char* short_kind(const Event& event) {
+  static const char* const names[] = {"begin", "support", "simplex", "end", "polytope", "face", "grow", "end", "begin", "portal", "end", "begin", "axis", "end", "warning"};
+  static_assert(std::size(names) == std::variant_size_v<Event>);
+  return names[event.index()];
+}
+
+std::string method_text(const Settings& s) {
+  std::string text(method_names[static_cast<std::size_t>(s.name)]);
+  if (s.name == MethodName::gjk_accelerated && s.acceleration == Acceleration::polyak) text += " \xC2\xB7 polyak";
+  if (s.closest_point != ClosestPoint::signed_volumes) text += " \xC2\xB7 " + std::string(closest_point_names[static_cast<std::size_t>(s.closest_point)]);
+  if (s.stopping != Stopping::bounds) text += " \xC2\xB7 " + std::string(stopping_names[static_cast<std::size_t>(s.stopping)]);
+  return text + " \xC2\xB7 " + std::string(scalar_names[static_cast<std::size_t>(s.scalar)]);
+}
+
+std::optional<std::size_t> find_text(const Session& session, const std::string& text, std::size_t from, bool backwards) {
+  if (text.empty()) return std::nullopt;
+  const Recording& recording = session.recording();
+  if (text.find_first_of("<>=") != std::string::npos || text.starts_with("any ")) return find_step(Condition(text), recording, session.findings(), from, backwards);
+  const std::size_t count = recording.events.size();
+  for (std::size_t k = 1; k <= count; ++k) {
+    const std::size_t step = backwards ? (from + count - k) % count : (from + k) % count;
+    const Event& event = recording.events[step];
+    const std::string line = std::string(kind_name(event)) + " " + short_kind(event) + " " + summary(recording, step);
+    if (line.find(text) != std::string::npos) return step;
+  }
+  return std::nullopt;
 }
 
 std::string result_text(const Recording& recording) {

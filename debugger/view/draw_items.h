@@ -1,0 +1,12 @@
+// Draws a flattened picture with ImGui.
+#pragma once
+
+#include "debugger/render/picture.h"
+#include "debugger/view/theme.h"
+
+namespace gjkdbg {
+
+/// `small_marks`: for thumbnails, points and lines at half their size and no labels.
+void draw_items(ImDrawList* draw, const std::vector<FlatItem>& items, const Theme& theme, bool small_marks = false);
+
+}  // namespace gjkdbg

@@ -1,0 +1,63 @@
+// The left panel: the gallery in lessons, each scene with a picture of itself.
+#include <algorithm>
+
+#include "debugger/view/app.h"
+
+namespace gjkdbg {
+namespace {
+
+/// One scene: its picture, its name. True when clicked.
+bool scene_row(App& app, const std::string& name, bool current) {
+  const Theme& theme = app.theme;
+  const float height = theme.px(46);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  ImGui::PushID(name.c_str());
+  const bool clicked = ImGui::Selectable("##scene", current, 0, {width, height});
+  ImGui::PopID();
+  if (!ImGui::IsRectVisible(at, {at.x + width, at.y + height})) return clicked;
+  app.thumbnails().draw(app.gallery(), name, theme, {at.x + theme.px(4), at.y + theme.px(3)}, {at.x + theme.px(68), at.y + height - theme.px(3)});
+  // A long name takes two lines, cut at a hyphen.
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const ImU32 colour = packed(current ? theme.palette.text : theme.palette.text_soft);
+  const float left = at.x + theme.px(78), room = width - theme.px(80);
+  const auto text_width = [&](const std::string& text) { return theme.small->CalcTextSizeA(theme.small->FontSize, 1e6f, 0, text.c_str()).x; };
+  std::size_t cut = std::string::npos;
+  if (text_width(name) > room) {
+    cut = name.rfind('-', name.size() - 1);
+    while (cut != std::string::npos && cut > 0 && text_width(name.substr(0, cut + 1)) > room) cut = name.rfind('-', cut - 1);
+  }
+  const bool two = cut != std::string::npos;
+  const float line = theme.small->FontSize + theme.px(1), y = at.y + height / 2 - line * (two ? 1 : 0.5f);
+  draw->AddText(theme.small, theme.small->FontSize, {left, y}, colour, two ? name.substr(0, cut + 1).c_str() : name.c_str());
+  if (two) draw->AddText(theme.small, theme.small->FontSize, {left, y + line}, colour, name.substr(cut + 1).c_str());
+  return clicked;
+}
+
+}  // namespace
+
+void gallery_panel(App& app) {
+  const Theme& theme = app.theme;
+  for (const Lesson& lesson : app.gallery().lessons) {
+    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text));
+    const bool holds = std::find(lesson.scenes.begin(), lesson.scenes.end(), app.session.scene().scene.name) != lesson.scenes.end();
+    ImGui::SetNextItemOpen(holds, ImGuiCond_Once);
+    const bool open = ImGui::TreeNodeEx(lesson.title.c_str(), ImGuiTreeNodeFlags_SpanAvailWidth | ImGuiTreeNodeFlags_NoTreePushOnOpen);
+    ImGui::PopStyleColor();
+    if (!open) {
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", lesson.text.c_str());
+      continue;
+    }
+    ImGui::PushFont(theme.small);
+    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_faint));
+    ImGui::TextWrapped("%s", lesson.text.c_str());
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, theme.px(2)});
+    for (const std::string& name : lesson.scenes)
+      if (scene_row(app, name, app.session.scene().scene.name == name)) app.open_gallery(name);
+    ImGui::PopStyleVar();
+  }
+}
+
+}  // namespace gjkdbg
