@@ -157,6 +157,8 @@ void apply(Frame& frame, const Recording& recording, std::size_t step) {
   frame.step = step;
   frame.dropped.clear(), frame.removed.clear(), frame.horizon.clear(), frame.added.clear();
   std::visit(Apply{frame, step, recording}, recording.events[step]);
+  const auto* cut = std::get_if<recorded::SimplexReduced>(&recording.events[step]);
+  frame.lettered = cut ? cut->before : frame.simplex;
 }
 
 std::map<int, std::vector<std::size_t>> index_vertices(const Recording& recording) {

@@ -1,6 +1,8 @@
 // The window in-process, without a display: keys and clicks through ImGui's own input, the step seen to change, pictures not blank.
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <fstream>
 #include <set>
 
 #include "debugger/render/image_file.h"
@@ -141,10 +143,204 @@ TEST_F(Window, ShowsEverySceneOfTheGallery) {
 }
 
 TEST_F(Window, ThemesLayoutsAndKeySheet) {
-  for (const Key key : {Key::t, Key::v, Key::v, Key::v, Key::g, Key::slash, Key::escape, Key::pad_1, Key::pad_2, Key::pad_3, Key::m, Key::digit_1, Key::left_bracket, Key::right_bracket}) {
+  for (const Key key : {Key::t, Key::v, Key::v, Key::v, Key::g, Key::slash, Key::escape, Key::pad_1, Key::pad_2, Key::pad_3, Key::m, Key::digit_1, Key::left_bracket, Key::right_bracket, Key::e, Key::e, Key::l, Key::f1, Key::f1, Key::f}) {
     host.press(key);
     EXPECT_GT(colours(), 100);
   }
+}
+
+TEST_F(Window, FindsByTextAndByCondition) {
+  host.press(Key::f, false, true);
+  host.type("grow");
+  host.press(Key::enter);
+  ASSERT_TRUE(std::holds_alternative<recorded::PolytopeGrown>(session.recording().events[session.step()]));
+  const std::size_t first = session.step();
+  host.press(Key::escape);
+  host.frame();
+  host.press(Key::f3);
+  EXPECT_GT(session.step(), first);
+  host.press(Key::f3, true);
+  EXPECT_EQ(session.step(), first);
+  const auto seeded = find_text(session, "kind == polytope_seeded", 0, false);
+  ASSERT_TRUE(seeded);
+  EXPECT_EQ(kind_name(session.recording().events[*seeded]), "polytope_seeded");
+  EXPECT_THROW(find_text(session, "nonsense < 3", 0, false), Error);
+}
+
+TEST_F(Window, GoesToAStepByNumber) {
+  host.press(Key::g, false, true);
+  host.frame();
+  host.type("7");
+  host.press(Key::enter);
+  EXPECT_EQ(session.step(), 7u);
+  host.press(Key::g, false, true);
+  host.frame();
+  host.press(Key::escape);
+  host.frame();
+  EXPECT_EQ(session.step(), 7u);
+}
+
+TEST_F(Window, StopsWhereAConditionHolds) {
+  session.stop_when = Condition("region.size == 3");
+  session.speed = 8;
+  host.press(Key::space);
+  for (int i = 0; i < 300 && session.playing; ++i) host.frame();
+  const auto* e = std::get_if<recorded::SimplexReduced>(&session.recording().events[session.step()]);
+  ASSERT_TRUE(e);
+  EXPECT_EQ(e->region.size(), 3u);
+}
+
+TEST_F(Window, ComparesTwoMethodsInStep) {
+  Method single;
+  single.scalar = Scalar::float_precision;
+  EXPECT_EQ(session.compare_with(single, "single precision"), "");
+  ASSERT_TRUE(session.comparing());
+  ASSERT_TRUE(session.parting());
+  const Image alone = host.image();
+  host.frame(), host.frame();
+  EXPECT_NE(host.image().rgb, alone.rgb);
+  session.go_to(session.count() - 1);
+  host.frame();
+  // An edit solves both again; a scene the other method does not take ends the comparison.
+  SceneFile next = session.scene();
+  next.scene.bodies[1].pose.position[0] += 0.01;
+  EXPECT_EQ(session.edit(next), "");
+  EXPECT_TRUE(session.comparing());
+  Method sat;
+  sat.name = MethodName::sat;
+  EXPECT_EQ(session.compare_with(sat, "sat"), "");
+  next.scene.bodies[0].shape = {Cylinder{0.5, 0.5, 1}, 0};
+  EXPECT_EQ(session.edit(next), "");
+  EXPECT_FALSE(session.comparing());
+  EXPECT_NE(session.compare_with(sat, "sat"), "");
+  host.frame();
+}
+
+TEST_F(Window, KeepsTheCorrespondingStepThroughAnEdit) {
+  for (std::size_t i = 0; i < session.count(); ++i)
+    if (std::holds_alternative<recorded::PolytopeSeeded>(session.recording().events[i])) session.go_to(i);
+  SceneFile next = session.scene();
+  next.scene.bodies[1].pose.position[0] += 0.2;
+  ASSERT_EQ(session.edit(next), "");
+  EXPECT_TRUE(std::holds_alternative<recorded::PolytopeSeeded>(session.recording().events[session.step()]));
+}
+
+TEST_F(Window, CopiesTheSceneAsJsonAndAsCpp) {
+  host.press(Key::c, false, true);
+  const std::string json = ImGui::GetClipboardText();
+  EXPECT_EQ(parse_scene(json, {}).scene.bodies.size(), 2u);
+  host.press(Key::c, true, true);
+  EXPECT_NE(std::string(ImGui::GetClipboardText()).find("scene.bodies[1].shape = Shape{Box{AnyVector{{-0.55"), std::string::npos) << ImGui::GetClipboardText();
+}
+
+TEST_F(Window, SplittersMoveAndAreRemembered) {
+  const float left = app.preferences.left, split = app.preferences.split, bottom = app.preferences.bottom;
+  host.drag(279, 300, 329, 300);
+  EXPECT_NEAR(app.preferences.left, left + 50, 1);
+  host.frame();
+  const float x = 282 + 50 + (1280 - 270 - 50 - 330 - 24 - 6) * split + 3;
+  host.drag(x, 200, x + 60, 200);
+  EXPECT_GT(app.preferences.split, split + 0.05f);
+  host.drag(700, 531, 700, 491);
+  EXPECT_NEAR(app.preferences.bottom, bottom + 40, 2);
+  const Preferences read = preferences_from_text(preferences_to_text(app.preferences));
+  EXPECT_EQ(read.left, app.preferences.left);
+  EXPECT_EQ(read.split, app.preferences.split);
+  EXPECT_EQ(preferences_from_text("not json").left, Preferences{}.left);
+  EXPECT_LE(preferences_from_text(R"({"left": 1e9, "split": "x"})").left, 900);
+}
+
+TEST_F(Window, TurnsABodyByItsDisc) {
+  const ViewRectangle view{282, 54 + 48 * 0.6, 325, 474 - 48 * 0.6};
+  const Projected at = Projection(app.world_camera, view)(to_view(session.scene().scene.bodies[0].pose.position));
+  const AnyMatrix before = session.scene().scene.bodies[0].pose.matrix;
+  const AnyVector place = session.scene().scene.bodies[0].pose.position;
+  const float x = static_cast<float>(at.x) + 17, y = static_cast<float>(at.y) - 13.5f;
+  host.drag(x, y, x + 30, y + 60);
+  EXPECT_NE(session.scene().scene.bodies[0].pose.matrix, before);
+  EXPECT_EQ(session.scene().scene.bodies[0].pose.position, place);
+  host.press(Key::z, false, true);
+  EXPECT_EQ(session.scene().scene.bodies[0].pose.matrix, before);
+}
+
+TEST_F(Window, LinkedCamerasTurnTogether) {
+  host.press(Key::l);
+  host.drag(760, 200, 820, 240);
+  EXPECT_EQ(app.world_camera.yaw, app.difference_camera.yaw);
+  EXPECT_EQ(app.world_camera.pitch, app.difference_camera.pitch);
+}
+
+TEST_F(Window, ShowsABrokenFileInTheWindowAndKeepsTheLast) {
+  const auto folder = std::filesystem::temp_directory_path() / "gjkdbg-view-test";
+  std::filesystem::create_directories(folder);
+  const auto file = folder / "broken.scene.json";
+  { std::ofstream(file) << "{\"format\": \"gjk-scene\", \"version\": 1, \"dimension\": 7}"; }
+  const Image before = host.image();
+  app.open(file);
+  host.frame(), host.frame();
+  EXPECT_NE(app.message.find("/dimension"), std::string::npos) << app.message;
+  EXPECT_EQ(session.title(), "box-box-deep");
+  EXPECT_NE(host.image().rgb, before.rgb);
+  host.press(Key::escape);
+  EXPECT_TRUE(app.message.empty());
+  std::filesystem::remove_all(folder);
+}
+
+TEST_F(Window, EditingTypesChangesShapesOfEveryDimension) {
+  for (const char* name : {"1d-overlap", "2d-deep", "box-box-deep"}) {
+    app.open_gallery(name);
+    app.left_tab = App::LeftTab::scene;
+    host.frame();
+    host.frame();
+    EXPECT_TRUE(app.message.empty());
+  }
+}
+
+TEST_F(Window, GalleryShowsThumbnailsInTime) {
+  app.left_tab = App::LeftTab::gallery;
+  host.frame();
+  for (int i = 0; i < 40 && app.thumbnails().busy(); ++i) host.frame();
+  EXPECT_FALSE(app.thumbnails().busy());
+  EXPECT_GT(colours(), 200);
+}
+
+TEST_F(Window, SceneToPictureIsQuick) {
+  // Not a test of speed, which machines differ in: prints what the gallery's slowest scene takes.
+  double worst = 0;
+  std::string slowest;
+  for (const Lesson& lesson : app.gallery().lessons)
+    for (const std::string& name : lesson.scenes) {
+      app.open_gallery(name);
+      SceneFile next = session.scene();
+      const auto begin = std::chrono::steady_clock::now();
+      EXPECT_EQ(session.edit(next), "");
+      session.frame();
+      const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+      if (ms > worst) worst = ms, slowest = name;
+    }
+  std::printf("slowest edit: %s, %.1f ms\n", slowest.c_str(), worst);
+}
+
+TEST(Conditions, SayWhatIsWrong) {
+  for (const char* bad : {"< 3", "upper_bound <", "nonsense == 1", "iteration == 1 maybe", "iteration == 1 and"})
+    EXPECT_THROW(Condition{bad}, Error) << bad;
+  Recording recording = record(read_scene(read_gallery(GJKDBG_GALLERY).file("box-box-deep")));
+  const auto count = [&](const char* text) {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < recording.events.size(); ++i) n += Condition(text).holds(recording, {}, i);
+    return n;
+  };
+  EXPECT_EQ(count(""), 0u);
+  EXPECT_EQ(count("kind == gjk_began"), 1u);
+  EXPECT_EQ(count("gjk_began"), 1u);
+  EXPECT_EQ(count("step >= 0"), recording.events.size());
+  EXPECT_EQ(count("phase == epa") + count("phase == gjk") + count("phase == seed"), count("support_queried"));
+  EXPECT_EQ(count("region.size == 1 or region.size == 2 or region.size == 3 or region.size == 4"), count("simplex_reduced"));
+  EXPECT_EQ(count("closest.norm > 0 and region.size < 9"), count("closest.norm > 0"));
+  EXPECT_EQ(count("status == enclosed"), 1u);
+  EXPECT_EQ(count("status != enclosed"), 1u);  // EPA's
+  EXPECT_EQ(count("any warning"), 0u);
+  EXPECT_EQ(count("direction.x >= -2 and direction.x <= 2"), count("direction"));
 }
 
 TEST(Pictures, PngAndGifStartAsTheyMust) {

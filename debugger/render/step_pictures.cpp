@@ -15,9 +15,9 @@ SceneMeshes scene_meshes(const Scene& scene) {
 }
 
 std::string simplex_letter(const Frame& frame, int vertex, bool newest_first) {
-  const auto found = std::find(frame.simplex.begin(), frame.simplex.end(), vertex);
-  if (found == frame.simplex.end()) return {};
-  const auto from_newest = found - frame.simplex.begin(), from_oldest = frame.simplex.end() - found - 1;
+  const auto found = std::find(frame.lettered.begin(), frame.lettered.end(), vertex);
+  if (found == frame.lettered.end()) return {};
+  const auto from_newest = found - frame.lettered.begin(), from_oldest = frame.lettered.end() - found - 1;
   return std::string(1, static_cast<char>('A' + (newest_first ? from_newest : from_oldest)));
 }
 
@@ -147,7 +147,7 @@ class Painter {
   void supports() {
     const bool over = frame_.step + 1 == recording_.events.size() && recording_.result.witness_a;  // the witness points speak then
     for (const auto& [number, v] : frame_.vertices) {
-      const bool newest = frame_.newest == number && !over, in_simplex = !letter_of(number).empty();
+      const bool newest = frame_.newest == number && !over, in_simplex = std::find(frame_.simplex.begin(), frame_.simplex.end(), number) != frame_.simplex.end();
       const bool selected = settings_.selected == number || settings_.pointed == number;
       if (((!newest && !in_simplex) || over) && !selected) continue;
       const ViewPoint a = to_view(v.a) + one_d_offset(0), b = to_view(v.b) + one_d_offset(1);
@@ -386,8 +386,8 @@ class Painter {
       const Colour colour = newest ? palette_.newest : dropped ? palette_.dropped : palette_.simplex;
       picture_.points.push_back({w, colour, newest ? 6.5 : dropped ? 4.0 : letter.empty() ? 3.5 : 6.0, Mark::disc, number});
       if (settings_.selected == number || settings_.pointed == number) mark_selected(w);
-      if (!letter.empty()) label(w, letter, palette_.text);
-      else if (dropped) label(w, "dropped", palette_.dropped);
+      if (dropped) label(w, letter.empty() ? "dropped" : letter + " dropped", palette_.dropped);
+      else if (!letter.empty()) label(w, letter, palette_.text);
       else if (newest) label(w, "w", palette_.newest);
     }
   }

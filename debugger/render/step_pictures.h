@@ -39,7 +39,8 @@ Picture difference_picture(const SceneMeshes& meshes, const Recording& recording
 Camera fit_world(const SceneMeshes& meshes);
 Camera fit_difference(const SceneMeshes& meshes, const Recording& recording);
 
-/// The letter a vertex goes by at a step: A for the newest of the simplex (or the oldest), then B, C, D; "" when it is not in it.
+/// The letter a vertex goes by at a step: A for the newest of the simplex (or the oldest), then B, C, D; "" when it is not in it. At the
+/// step of a cut the letters are those before it, which the step's sentence uses.
 std::string simplex_letter(const Frame& frame, int vertex, bool newest_first = true);
 
 }  // namespace gjkdbg

@@ -122,8 +122,8 @@ void App::banner(const Area& area) {
   const std::string& text = error ? message : notice;
   const float wrap = area.width - theme.px(60);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
-  ImGui::PushStyleColor(ImGuiCol_ChildBg, vec((error ? theme.palette.newest : theme.palette.support).with_alpha(0.92)));
-  begin_area("banner", {area.x, area.y, std::min(area.width, size.x + theme.px(60)), size.y + theme.px(22)});
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, vec((error ? theme.palette.newest : theme.palette.support).shaded(-0.15)));
+  begin_area("banner", {area.x + (area.width - std::min(area.width, size.x + theme.px(60))) / 2, area.y, std::min(area.width, size.x + theme.px(60)), size.y + theme.px(22)});
   ImGui::PushStyleColor(ImGuiCol_Text, vec(rgb(0xffffff)));
   ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + wrap);
   ImGui::TextUnformatted(text.c_str());
@@ -155,9 +155,7 @@ void App::picture_frame() {
   const std::string place = session.title() + "  \xC2\xB7  step " + std::to_string(session.step()) + " of " + std::to_string(session.count() - 1);
   ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(place.c_str()).x);
   ImGui::TextColored(vec(theme.palette.text_faint), "%s", place.c_str());
-  ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
-  ImGui::TextWrapped("%s", e.text.c_str());
-  ImGui::PopStyleColor();
+  wrapped(e.text, theme.palette.text_soft);
   ImGui::EndChild();
   ImGui::End();
 }
@@ -172,9 +170,7 @@ void App::lecture_panel(const Area& area) {
     ImGui::TextUnformatted(e.title.c_str());
     ImGui::PopFont();
     ImGui::PushFont(theme.lecture);
-    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
-    ImGui::TextWrapped("%s", e.text.c_str());
-    ImGui::PopStyleColor();
+    wrapped(e.text, theme.palette.text_soft);
     ImGui::PopFont();
   }
   ImGui::EndChild();
@@ -291,6 +287,7 @@ void App::control_keys(bool shift) {
   if (key_pressed(Key::s)) ask(Asking::save);
   if (key_pressed(Key::f)) ask(Asking::find);
   if (key_pressed(Key::g)) ask(Asking::go_to);
+  if (key_pressed(Key::q)) quit = true;
   if (key_pressed(Key::c)) {
     ImGui::SetClipboardText(shift ? scene_as_cpp(session.scene()).c_str() : (pretty_json(scene_to_json(session.scene())) + "\n").c_str());
     note(shift ? "the scene is copied as C++" : "the scene is copied as JSON");
@@ -342,7 +339,7 @@ void App::key_sheet() {
       {"Space", "play, pause"}, {"[  ]", "loop from here, to here"}, {"B", "breakpoint here"}, {"M, 1 to 9", "bookmark, go to it"}, {"Ctrl-F, F3, Shift-F3", "find, next, previous"},
       {"Ctrl-G", "go to a step"}, {"F, double click", "fit the views"}, {"1 2 3 on the pad", "front, right, top"}, {"V", "side by side, stacked, one view"}, {"L", "link the cameras"},
       {"G", "gallery or scene"}, {"T", "dark or light"}, {"E", "explain in big letters"}, {"Ctrl-O  Ctrl-S", "open, save"}, {"Ctrl-C, Ctrl-Shift-C", "copy the scene: JSON, C++"},
-      {"Ctrl-Z  Ctrl-Y", "undo, redo"}, {"drag, right drag, wheel", "orbit, pan, zoom"}, {"click a vertex", "select it in both views"}, {"click a number", "the step it comes from"},
+      {"Ctrl-Z  Ctrl-Y", "undo, redo"}, {"Ctrl-Q", "quit"}, {"drag, right drag, wheel", "orbit, pan, zoom"}, {"click a vertex", "select it in both views"}, {"click a number", "the step it comes from"},
       {"drag a ring A or B", "move the body"}, {"drag its small disc", "turn the body"}};
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});

@@ -28,6 +28,7 @@ class App {
   enum class LeftTab { gallery, scene } left_tab = LeftTab::gallery;
   bool show_keys = false;
   bool lecture = false;       ///< big sentence, no side panels
+  bool quit = false;          ///< the person wants to leave
   std::string message;        ///< the last error, shown until the next success
   std::string notice;         ///< the last thing done ("copied"), shown for a while
   std::string save_requested; ///< a file name the person gave; the host writes it and clears this
@@ -98,6 +99,8 @@ void view_panels(App& app, const Area& area, bool interactive);
 /// A borderless child window over an area; call ImGui::EndChild after it.
 bool begin_area(const char* name, const Area& area, bool scrolls = false);
 void section(const Theme& theme, const char* title);
+/// Broken between words only: never within a number.
+void wrapped(const std::string& text, Colour colour);
 /// A label on the left and a number in the monospaced font, right-aligned. With a source, the step that produced the number, a click goes there.
 void number_row(const Theme& theme, const char* label, const std::string& value, Colour colour);
 void number_row(App& app, const char* label, const std::string& value, Colour colour, std::optional<std::size_t> source);

@@ -100,7 +100,9 @@ struct Explain {
       for (const int k : against->part)
         if (k != static_cast<int>(i)) rest += static_cast<char>('A' + k);
       const char letter = static_cast<char>('A' + i);
-      text += std::string("; \xCE\xBB") + letter + " = " + short_number(weight) + " in " + rest + letter + ": the origin lies beyond " + (rest.size() == 1 ? "" : feature_name(rest.size()) + " ") + rest;
+      std::string part = rest + letter;
+      std::sort(part.begin(), part.end());
+      text += std::string("; \xCE\xBB") + letter + " = " + short_number(weight) + " in " + part + ": the origin lies beyond " + (rest.size() == 1 ? "" : feature_name(rest.size()) + " ") + rest;
     }
     return text;
   }
@@ -125,6 +127,8 @@ struct Explain {
   }
 
   Explanation operator()(const recorded::SimplexReduced& e) const {
+    if (e.before.size() == 1 && e.closest.size() > 0)
+      return {"The simplex is one vertex", "So the nearest point is that vertex: v = " + short_vector(e.closest) + ", |v| = " + short_number(e.closest.norm()) + "; the search goes on along -v, towards the origin."};
     const std::string kept = letters(e.region, e.before), all = letters(e.before, e.before);
     const std::string title = e.before.size() == e.region.size() ? "The whole " + feature_name(e.region.size()) + " is kept" : "Simplex cut to " + feature_name(e.region.size()) + " " + kept;
     std::string text;

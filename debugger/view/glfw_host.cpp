@@ -52,6 +52,7 @@ void draw(GLFWwindow* window, App& app) {
   ImGui::GetIO().DeltaTime = std::clamp(ImGui::GetIO().DeltaTime, 1e-4f, 0.1f);
   ImGui::NewFrame();
   app.frame();
+  forget_presses();
   ImGui::Render();
   int width = 0, height = 0;
   glfwGetFramebufferSize(window, &width, &height);
@@ -84,7 +85,7 @@ void refresh(App& app, const WindowOptions& options) {
 void loop(GLFWwindow* window, App& app, const WindowOptions& options) {
   int frames_left = 3;
   std::string title;
-  while (!glfwWindowShouldClose(window)) {
+  while (!glfwWindowShouldClose(window) && !app.quit) {
     if (app.moving()) glfwPollEvents();
     else if (frames_left > 0) glfwPollEvents(), --frames_left;
     else if (options.refresh) glfwWaitEventsTimeout(0.33), frames_left = 1;
@@ -113,6 +114,11 @@ void run_window(const WindowOptions& options, Gallery gallery) {
   App app(std::move(gallery), scale_of(window, options.scale));
   glfwSetWindowUserPointer(window, &app);
   glfwSetDropCallback(window, open_dropped);
+#if IMGUI_VERSION_NUM < 18700
+  glfwSetKeyCallback(window, [](GLFWwindow*, int key, int, int action, int) {
+    if (action == GLFW_PRESS) note_press(key);
+  });
+#endif
   ImGui_ImplGlfw_InitForOpenGL(window, true);
   ImGui_ImplOpenGL3_Init("#version 330 core");
   app.preferences = options.preferences;

@@ -123,6 +123,12 @@ void Headless::drag(float x0, float y0, float x1, float y1) {
   frame();
 }
 
+void Headless::type(const std::string& text) {
+  for (const char c : text) ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(c));
+  frame();
+  frame();
+}
+
 void Headless::wheel(float x, float y, float steps) {
   move(x, y);
   ImGui::GetIO().MouseWheel = steps;

@@ -59,6 +59,7 @@ class Headless {
   void click(float x, float y);
   void drag(float x0, float y0, float x1, float y1);
   void wheel(float x, float y, float steps);
+  void type(const std::string& text);
 
  private:
   struct Context;

@@ -4,13 +4,18 @@
 namespace gjkdbg {
 
 enum class Key {
-  right, left, period, comma, home, end, space, b, m, left_bracket, right_bracket, f, v, g, t, o, s, z, y, slash, f1, escape, e, l, c, n, f3, enter,
+  right, left, period, comma, home, end, space, b, m, left_bracket, right_bracket, f, v, g, t, o, s, z, y, slash, f1, escape, e, l, c, n, q, f3, enter,
   digit_1, digit_2, digit_3, digit_4, digit_5, digit_6, digit_7, digit_8, digit_9, pad_1, pad_2, pad_3
 };
 inline constexpr int key_count = static_cast<int>(Key::pad_3) + 1;
 
 /// Pressed since the last frame, repeats included.
 bool key_pressed(Key key);
+
+/// A press as the window system tells it (its own code), before the frame that it falls in: before 1.87 ImGui loses one that is let go within
+/// the same frame. `forget_presses` after every frame.
+void note_press(int code);
+void forget_presses();
 
 /// For tests and pictures, where no window feeds the keys: presses and lets go. Call `map_keys` once per context where no GLFW does.
 void feed_key(Key key, bool down);

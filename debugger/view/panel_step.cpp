@@ -41,9 +41,7 @@ void heading(App& app) {
   ImGui::PushFont(theme.title);
   ImGui::TextWrapped("%s", e.title.c_str());
   ImGui::PopFont();
-  ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
-  ImGui::TextWrapped("%s", e.text.c_str());
-  ImGui::PopStyleColor();
+  wrapped(e.text, theme.palette.text_soft);
 }
 
 /// A bar per vertex of the simplex: its share in the nearest point.
@@ -73,7 +71,7 @@ void weights(App& app) {
     ImGui::PopFont();
     ImGui::SetCursorScreenPos({left, y + row});
   }
-  for (const int v : frame.dropped) ImGui::TextColored(vec(theme.palette.dropped), "vertex #%d dropped", v);
+  for (const int v : frame.dropped) ImGui::TextColored(vec(theme.palette.dropped), "%s  #%d dropped", simplex_letter(frame, v, app.settings.newest_first).c_str(), v);
 }
 
 /// Every part of the simplex as it was before the cut: its weights, whether it holds its projection, how close that was.
@@ -88,7 +86,7 @@ void regions(App& app) {
     if (found == frame.vertices.end()) return;
     points.push_back(found->second.w);
   }
-  section(theme, "EVERY PART, AND WHAT SPEAKS AGAINST IT");
+  section(theme, "EVERY PART, TESTED: |v|, OR A WEIGHT BELOW 0");
   ImGui::PushFont(theme.mono);
   const float right = ImGui::GetWindowContentRegionMax().x;
   for (const RegionTest& test : region_tests(points)) {
@@ -96,11 +94,11 @@ void regions(App& app) {
     for (const int i : test.part) part += static_cast<char>('A' + (app.settings.newest_first ? i : static_cast<int>(points.size()) - 1 - i));
     const std::size_t least = static_cast<std::size_t>(std::min_element(test.weights.begin(), test.weights.end()) - test.weights.begin());
     if (!test.holds_projection) why = std::string("\xCE\xBB") + part[least] + " " + short_number(test.weights[least]);
-    else why = "|v| " + short_number(test.distance);
+    else why = short_number(test.distance);
     std::sort(part.begin(), part.end());
     const Colour colour = test.nearest ? theme.palette.simplex : test.holds_projection ? theme.palette.text_soft : theme.palette.dropped;
     ImGui::TextColored(vec(colour), "%s %s", test.nearest ? ">" : " ", part.c_str());
-    ImGui::SameLine(theme.px(86));
+    ImGui::SameLine(theme.px(78));
     ImGui::TextColored(vec(colour), "%s", test.nearest ? "nearest" : test.holds_projection ? "farther" : "outside");
     ImGui::SameLine(right - ImGui::CalcTextSize(why.c_str()).x);
     ImGui::TextColored(vec(colour), "%s", why.c_str());
@@ -142,9 +140,7 @@ void comparison(App& app) {
     std::string fields;
     for (const std::string& f : p->fields) fields += (fields.empty() ? ": " : ", ") + f;
     const std::string text = (s.step() < p->event ? "the same so far; they part at step " : "they parted at step ") + std::to_string(p->event) + fields;
-    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
-    ImGui::TextWrapped("%s", text.c_str());
-    ImGui::PopStyleColor();
+    wrapped(text, theme.palette.text_soft);
   } else {
     ImGui::TextColored(vec(theme.palette.text_soft), "the same, event by event");
   }
@@ -183,6 +179,10 @@ void algorithm(App& app) {
   const PseudoCode code = pseudo_code(app.session.recording(), app.session.step());
   section(theme, code.title.c_str());
   ImGui::PushFont(theme.mono);
+  float widest = 0;
+  for (const std::string& line : code.lines) widest = std::max(widest, ImGui::CalcTextSize(line.c_str()).x);
+  const float room = ImGui::GetContentRegionAvail().x - theme.px(12);
+  if (widest > room) ImGui::SetWindowFontScale(std::max(0.7f, room / widest));
   ImDrawList* draw = ImGui::GetWindowDrawList();
   for (std::size_t i = 0; i < code.lines.size(); ++i) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -195,6 +195,7 @@ void algorithm(App& app) {
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + theme.px(12));
     ImGui::TextColored(vec(current ? theme.palette.text : theme.palette.text_soft), "%s", code.lines[i].c_str());
   }
+  ImGui::SetWindowFontScale(1);
   ImGui::PopFont();
 }
 
@@ -247,9 +248,7 @@ void findings(App& app) {
       ImGui::EndTooltip();
     }
     if (!here) continue;
-    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
-    ImGui::TextWrapped("%s", f.message.c_str());
-    ImGui::PopStyleColor();
+    wrapped(f.message, theme.palette.text_soft);
   }
 }
 
@@ -258,9 +257,7 @@ void right_implementation(App& app) {
   const std::string text = right_step(app.session.recording(), app.session.frame());
   if (text.empty()) return;
   section(app.theme, "A RIGHT IMPLEMENTATION, FROM HERE");
-  ImGui::PushStyleColor(ImGuiCol_Text, vec(app.theme.palette.support));
-  ImGui::TextWrapped("%s", text.c_str());
-  ImGui::PopStyleColor();
+  wrapped(text, app.theme.palette.support);
 }
 
 }  // namespace

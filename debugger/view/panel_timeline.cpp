@@ -52,6 +52,13 @@ void transport(App& app) {
   if (icon_button(theme, "##forward", Icon::forward, "On an event (Right)")) s.step_by(1);
   if (icon_button(theme, "##forward_iteration", Icon::forward_iteration, "On an iteration (Shift+Right)")) s.step_iteration(1);
   if (icon_button(theme, "##last", Icon::last, "To the end (End)")) s.go_to(s.count() - 1);
+  const std::string count = "step " + std::to_string(s.step()) + " of " + std::to_string(s.count() - 1);
+  const float count_width = ImGui::CalcTextSize(count.c_str()).x, right = ImGui::GetWindowContentRegionMax().x;
+  if (ImGui::GetCursorPosX() + theme.px(190) + count_width > right) {  // no room for more
+    ImGui::SameLine(std::max(ImGui::GetCursorPosX(), right - count_width));
+    ImGui::TextUnformatted(count.c_str());
+    return;
+  }
   ImGui::SameLine(0, theme.px(14));
   ImGui::SetNextItemWidth(theme.px(64));
   static const char* const speeds[] = {"0.25x", "0.5x", "1x", "2x", "4x", "8x"};
@@ -59,8 +66,7 @@ void transport(App& app) {
   if (ImGui::Combo("##speed", &at, speeds, 6)) s.speed = std::pow(2, at - 2);
   ImGui::SameLine();
   ImGui::Checkbox("loop", &s.loop);
-  const std::string count = "step " + std::to_string(s.step()) + " of " + std::to_string(s.count() - 1);
-  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(count.c_str()).x);
+  ImGui::SameLine(right - count_width);
   ImGui::TextUnformatted(count.c_str());
 }
 
@@ -86,7 +92,11 @@ void scrubber(App& app) {
     for (; end < s.count() && belongs(s.recording().events[end]); ++end)
       if (iteration < 0) iteration = iteration_of(s.recording().events[end]);
     const float x0 = at.x + static_cast<float>(i) * cell, x1 = at.x + static_cast<float>(end) * cell;
-    if (band++ % 2 == 1) draw->AddRectFilled({x0, at.y}, {x1, at.y + size.y}, packed(p.hover.with_alpha(0.6)));
+    if (band++ % 2 == 1 && x1 - x0 >= 1) draw->AddRectFilled({x0, at.y}, {x1, at.y + size.y}, packed(p.hover.with_alpha(0.6)));
+    if (x1 - x0 < theme.px(8)) {
+      i = end;
+      continue;
+    }
     const std::string label = (phase == 0 ? "" : "E") + std::to_string(std::max(0, iteration));
     const float width = theme.small->CalcTextSizeA(theme.small->FontSize, 1000, 0, label.c_str()).x;
     if (x0 + theme.px(3) >= label_end && x1 - x0 > width + theme.px(4)) {
@@ -137,6 +147,7 @@ void legend(App& app) {
   const std::pair<const char*, Colour> entries[] = {{"support", p.support}, {"simplex", p.simplex}, {"face chosen", p.chosen}, {"polytope", p.frontier}, {"begin, end", p.text}, {"warning, finding", p.newest}};
   for (const auto& [name, colour] : entries) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
+    if (ImGui::GetCursorPosX() + theme.px(14) + ImGui::CalcTextSize(name).x > ImGui::GetWindowContentRegionMax().x) break;
     ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + theme.px(4)}, {at.x + theme.px(9), at.y + theme.px(13)}, packed(colour), 2);
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + theme.px(14));
     ImGui::TextColored(vec(p.text_faint), "%s", name);
@@ -239,8 +250,24 @@ void bounds_plot(App& app, float width, float height) {
   };
   level(floor, "rounding floor", p.dropped, true);
   if (tolerance > 1.5 * floor) level(tolerance, "tolerance", p.support, false);
-  const auto curve = [&](const std::vector<Sample>& list, bool other) {
-    for (std::size_t i = 0; i < list.size(); ++i) {
+  const auto curve = [&](const std::vector<Sample>& all, bool other) {
+    // Where many fall into one pixel, its least and its greatest stand for all.
+    std::vector<Sample> thinned;
+    const std::vector<Sample>* shown = &all;
+    if (static_cast<float>(all.size()) > 2 * (to.x - from.x)) {
+      for (std::size_t i = 0; i < all.size();) {
+        std::size_t least = i, most = i, end = i;
+        for (const float x = x_of(all[i].step); end < all.size() && x_of(all[end].step) < x + 2; ++end) {
+          if (all[end].gap < all[least].gap) least = end;
+          if (all[end].gap > all[most].gap) most = end;
+        }
+        thinned.push_back(all[std::min(least, most)]), thinned.push_back(all[std::max(least, most)]);
+        i = end;
+      }
+      shown = &thinned;
+    }
+    for (std::size_t i = 0; i < shown->size(); ++i) {
+      const std::vector<Sample>& list = *shown;
       const Colour colour = other ? p.body_b : list[i].phase == 0 ? p.simplex : p.chosen;
       const ImVec2 here{x_of(list[i].step), y_of(std::log10(list[i].gap))};
       if (i > 0 && list[i - 1].phase == list[i].phase) draw->AddLine({x_of(list[i - 1].step), y_of(std::log10(list[i - 1].gap))}, here, packed(colour), theme.px(other ? 1.2f : 2));

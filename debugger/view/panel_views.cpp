@@ -134,7 +134,7 @@ std::string title_of(App& app, const Shown& shown) {
 std::string subtitle_of(App& app, const Shown& shown) {
   if (shown.other && app.session.step() >= app.session.other().events.size()) return "has ended at step " + std::to_string(app.session.other().events.size() - 1);
   if (shown.world) return "the two bodies and their supports";
-  return app.session.meshes().radius > 0 ? "of the cores; dotted circle: the sum of the radii" : "simplex, direction, support plane, polytope";
+  return app.session.meshes().radius > 0 ? "of the cores; dotted: the sum of the radii" : "simplex, direction, support plane, polytope";
 }
 
 void link_cameras(App& app, bool from_world) {

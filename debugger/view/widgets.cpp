@@ -16,6 +16,22 @@ void section(const Theme& theme, const char* title) {
   ImGui::PopFont();
 }
 
+void wrapped(const std::string& text, Colour colour) {
+  const float room = ImGui::GetContentRegionAvail().x;
+  std::string broken;
+  float used = 0;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t end = std::min(text.find(' ', i), text.size());
+    const std::string word = text.substr(i, end - i);
+    const float width = ImGui::CalcTextSize(word.c_str()).x, space = broken.empty() ? 0 : ImGui::CalcTextSize(" ").x;
+    if (used > 0 && used + space + width > room) broken += '\n', used = 0;
+    else if (used > 0) broken += ' ', used += space;
+    broken += word, used += width;
+    i = end + 1;
+  }
+  ImGui::TextColored(vec(colour), "%s", broken.c_str());
+}
+
 void number_row(const Theme& theme, const char* label, const std::string& value, Colour colour) {
   ImGui::TextColored(vec(theme.palette.text_soft), "%s", label);
   ImGui::PushFont(theme.mono);
