@@ -7,6 +7,7 @@
 #include "shapes/convex.h"
 #include "shapes/convex_hull.h"
 #include "shapes/corners.h"
+#include "shapes/world_support.h"
 
 namespace gjkdbg {
 
@@ -138,18 +139,17 @@ DisplayMesh body_mesh(const Body& body, int dimension) {
 
 DisplayMesh difference_mesh(const Body& a, const Body& b, int dimension) {
   if (std::holds_alternative<Mesh>(a.shape.geometry) || std::holds_alternative<Mesh>(b.shape.geometry)) return {};
-  Points pa = extreme(in_world(points_of(a.shape, dimension, false), a.pose), dimension);
-  Points pb = extreme(in_world(points_of(b.shape, dimension, false), b.pose), dimension);
-  // Too many pairs for a picture: every k-th point will do.
-  while (pa.size() * pb.size() > most_pairs) {
-    Points& larger = pa.size() > pb.size() ? pa : pb;
-    Points half;
-    for (std::size_t i = 0; i < larger.size(); i += 2) half.push_back(larger[i]);
-    larger = half;
-  }
   Points difference;
-  for (const AnyVector& p : pa)
-    for (const AnyVector& q : pb) difference.push_back(p - q);
+  const auto corners_a = corners_of(a.shape, dimension), corners_b = corners_of(b.shape, dimension);
+  if (corners_a && corners_b && corners_a->points.size() * corners_b->points.size() <= most_pairs) {
+    const Points pa = extreme(in_world(corners_a->points, a.pose), dimension), pb = extreme(in_world(corners_b->points, b.pose), dimension);
+    for (const AnyVector& p : pa)
+      for (const AnyVector& q : pb) difference.push_back(p - q);
+  } else {
+    // Round, or too many pairs for a picture: supports of the difference, whose every point is on its boundary.
+    const WorldSupport support_a(a, dimension), support_b(b, dimension);
+    for (const AnyVector& d : directions(dimension)) difference.push_back(support_a(a.pose.matrix * d, false) - support_b(-(a.pose.matrix * d), false));
+  }
   return hull_mesh(difference, dimension);
 }
 
