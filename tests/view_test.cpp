@@ -69,6 +69,71 @@ TEST_F(Window, StepsByMouse) {
   EXPECT_GT(session.step(), before);
 }
 
+TEST_F(Window, TransportButtonsDoWhatTheirKeysDo) {
+  const auto button = [&](int i) { host.click(296 + 18 + 41 * static_cast<float>(i), 561); };
+  button(4);
+  EXPECT_EQ(session.step(), 1u);
+  button(5);
+  EXPECT_EQ(iteration_of(session.recording().events[session.step()]), 1);
+  button(6);
+  EXPECT_EQ(session.step(), session.count() - 1);
+  button(2);
+  EXPECT_EQ(session.step(), session.count() - 2);
+  button(1);
+  EXPECT_LT(session.step(), session.count() - 2);
+  button(0);
+  EXPECT_EQ(session.step(), 0u);
+  button(3);
+  EXPECT_TRUE(session.playing);
+  button(3);
+  EXPECT_FALSE(session.playing);
+}
+
+TEST_F(Window, OpensAndSavesByName) {
+  host.press(Key::s, false, true);
+  host.frame();
+  host.press(Key::enter);
+  EXPECT_EQ(app.save_requested, "box-box-deep.scene.json");
+  host.press(Key::o, false, true);
+  host.frame();
+  host.type(app.gallery().file("2d-deep").string());
+  host.press(Key::enter);
+  EXPECT_EQ(session.title(), "2d-deep");
+}
+
+TEST_F(Window, TopButtonsOpenWhatTheySay) {
+  const Image plain = host.image();
+  for (const float x : {110.f, 158.f, 205.f, 256.f, 310.f, 356.f}) {
+    host.click(x, 22);
+    host.frame();
+    EXPECT_NE(host.image().rgb, plain.rgb) << x;
+    host.press(Key::escape);
+    host.press(Key::escape);
+    app.preferences.dark = true, app.show_keys = false, app.lecture = false;
+    host.move(640, 700);
+    host.frame(), host.frame();
+  }
+}
+
+TEST_F(Window, ABookmarkAListRowAndANumberLeadToTheirSteps) {
+  session.go_to(5);
+  host.press(Key::m);
+  host.press(Key::home);
+  host.press(Key::digit_1);
+  EXPECT_EQ(session.step(), 5u);
+  host.click(420, 690);  // a row of the event list
+  EXPECT_NE(session.step(), 5u);
+  session.go_to(session.count() - 1);
+  host.frame();
+  // Every right-aligned number of the step panel: a click leads to an earlier step or stays.
+  bool led = false;
+  for (float y = 120; y < 780 && !led; y += 6) {
+    host.click(1240, y);
+    led = session.step() + 1 != session.count();
+  }
+  EXPECT_TRUE(led);
+}
+
 TEST_F(Window, EveryStepChangesThePicture) {
   std::vector<std::uint8_t> last;
   for (std::size_t i = 0; i < session.count(); ++i) {
