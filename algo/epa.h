@@ -187,21 +187,27 @@ class Epa {
     return n.normalized();
   }
 
+  /// At most D directions.
+  struct Directions {
+    std::array<V, D> list;
+    int count = 0;
+    const V* begin() const { return list.data(); }
+    const V* end() const { return list.data() + count; }
+  };
+
   /// Directions that span what is missing.
-  std::vector<V> directions_across(const std::array<int, D + 1>& chosen, int rank) const {
+  Directions directions_across(const std::array<int, D + 1>& chosen, int rank) const {
+    Directions across_chosen;
+    const auto add = [&](const V& d) { across_chosen.list[across_chosen.count++] = d; };
     if (rank == 0) {
-      std::vector<V> axes;
-      for (int i = 0; i < D; ++i) axes.push_back(V::Unit(i));
-      return axes;
+      for (int i = 0; i < D; ++i) add(V::Unit(i));
+      return across_chosen;
     }
     const V n = across(chosen, rank);
-    if constexpr (D == 3) {
-      if (rank == 1) {
-        const V e = (at(chosen[1]) - at(chosen[0])).normalized();
-        return {n, e.cross(n)};
-      }
-    }
-    return {n};
+    add(n);
+    if constexpr (D == 3)
+      if (rank == 1) add((at(chosen[1]) - at(chosen[0])).normalized().cross(n));
+    return across_chosen;
   }
 
   /// Should A - B turn out flat, the way out is across it, to the side where its support is least.

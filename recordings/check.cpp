@@ -172,6 +172,7 @@ std::vector<Finding> check(const Recording& recording) {
     std::visit(walk, recording.events[i]);
   }
   if (recording.result.status != "aborted") check_result(context, walk.best_plane);
+  check_need(context);
   return context.take();
 }
 

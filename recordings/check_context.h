@@ -122,5 +122,7 @@ class EpaCheck {
 
 /// The answer against our own.
 void check_result(CheckContext& context, double best_plane);
+/// Whether the scene asks for more than is read of it.
+void check_need(CheckContext& context);
 
 }  // namespace gjkdbg

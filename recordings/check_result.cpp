@@ -99,4 +99,16 @@ void check_result(CheckContext& c, double best_plane) {
   judge.witnesses();
 }
 
+void check_need(CheckContext& c) {
+  const SceneFile& file = c.recording.scene;
+  const Query query = file.scene.query;
+  const bool costly = query == Query::distance || query == Query::penetration || query == Query::contact;
+  // MPR's depth is an upper bound, so that a scene of it may well expect yes or no alone.
+  if (!costly || !file.expect || !file.expect->intersecting || file.expect->signed_distance || file.expect->normal || c.recording.settings.penetration == Penetration::mpr) return;
+  c.step = 0;
+  c.find("asks-too-much", "The scene expects yes or no, but asks for \"" + std::string(query_names[static_cast<std::size_t>(query)]) + "\", which took " + std::to_string(c.recording.result.support_calls) +
+                              " support queries: \"query\": \"intersect\" would do, and ends at the first proof.",
+         Finding::Severity::warning);
+}
+
 }  // namespace gjkdbg

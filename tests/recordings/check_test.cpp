@@ -30,6 +30,15 @@ TEST(Check, OurOwnRecordingsOfTheGalleryAreClean) {
         }
 }
 
+TEST(Check, PointsOutASceneThatAsksForMoreThanItReads) {
+  SceneFile file = read_scene(read_gallery(GJKDBG_GALLERY).file("box-box-deep"));
+  EXPECT_EQ(text(check(record(file))), "");
+  file.expect = Expectation{true, {}, {}, 1e-9};
+  EXPECT_NE(text(check(record(file))).find("asks-too-much"), std::string::npos);
+  file.scene.query = Query::intersect;
+  EXPECT_EQ(text(check(record(file))), "");
+}
+
 TEST(Check, OurOwnRecordingsOfRandomScenesAreClean) {
   RandomScenes random(21);
   const int count = std::getenv("GJKDBG_PAIRS") ? 200 : 2000;

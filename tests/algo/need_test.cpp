@@ -1,0 +1,111 @@
+// No more than is asked: counters of what a query runs, and that a prepared query allocates nothing.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "algo/solve_pair.h"
+#include "recordings/gallery.h"
+#include "recordings/recording.h"
+#include "tests/support/random_scenes.h"
+
+namespace {
+std::atomic<long> allocations{0};
+}  // namespace
+
+// Counted, for the whole of this program. GCC cannot see that malloc and free belong together here.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
+#endif
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* p = std::malloc(size)) return p;
+  throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+
+namespace gjkdbg {
+namespace {
+
+struct Counts {
+  int supports = 0, epa = 0, gjk = 0;
+  bool distance = false, normal = false, witnesses = false, contacts = false;
+};
+
+Counts counts_of(Scene scene, Query query) {
+  scene.query = query;
+  SceneFile file;
+  file.scene = scene;
+  const Recording r = record(file);
+  Counts c;
+  for (const Event& event : r.events) {
+    if (const auto* e = std::get_if<recorded::SupportQueried>(&event)) {
+      ++c.supports;
+      EXPECT_EQ(e->w.size(), scene.dimension);
+    }
+    c.gjk += std::holds_alternative<recorded::GjkBegan>(event);
+    c.epa += std::holds_alternative<recorded::PolytopeSeeded>(event) || std::holds_alternative<recorded::EpaEnded>(event);
+  }
+  EXPECT_EQ(c.supports, r.result.support_calls);
+  c.distance = r.result.signed_distance.has_value(), c.normal = r.result.normal.has_value();
+  c.witnesses = r.result.witness_a.has_value(), c.contacts = r.result.contacts.has_value();
+  return c;
+}
+
+TEST(Need, AQueryComputesWhatItIsAskedAndNoMore) {
+  RandomScenes random(31);
+  for (int k = 0; k < 600; ++k) {
+    const Scene scene = random.scene(1 + k % 3, static_cast<Family>(k / 3 % family_count), k % 2 == 0);
+    const Counts yes_no = counts_of(scene, Query::intersect), distance = counts_of(scene, Query::distance), depth = counts_of(scene, Query::penetration);
+    EXPECT_EQ(yes_no.epa + distance.epa, 0);
+    EXPECT_FALSE(yes_no.distance || yes_no.normal || yes_no.witnesses);
+    EXPECT_TRUE(distance.distance && distance.witnesses);
+    EXPECT_TRUE(depth.distance && depth.normal && depth.witnesses);
+    EXPECT_FALSE(depth.contacts);
+    EXPECT_LE(yes_no.supports, distance.supports);
+    EXPECT_LE(distance.supports, depth.supports);
+  }
+}
+
+TEST(Need, RoundCoresNeedNoPolytope) {
+  const Gallery gallery = read_gallery(GJKDBG_GALLERY);
+  for (const char* name : {"2d-circles-overlap", "pair-sphere-sphere"}) {
+    const Counts c = counts_of(read_scene(gallery.file(name)).scene, Query::penetration);
+    EXPECT_EQ(c.epa, 0) << name;
+    EXPECT_LE(c.supports, 3) << name;
+  }
+}
+
+/// Shapes prepared once, the workspace kept: the query itself.
+template <int D>
+long allocations_of(const Scene& scene, const Settings& settings, Query query) {
+  const Convex<D, double> a(scene.bodies[0].shape), b(scene.bodies[1].shape);
+  Workspace<D, double> workspace;
+  NoTrace trace;
+  const auto run = [&] { return PairSolver<D, double, NoTrace>(a, b, scene.bodies[0].pose, scene.bodies[1].pose, 1, settings, workspace, trace).run(query); };
+  for (int i = 0; i < 3; ++i) (void)run();  // the workspace grows to what this pair needs
+  const long before = allocations;
+  const Result r = run();
+  const long made = allocations - before;
+  EXPECT_GE(r.iterations, 0);
+  return made;
+}
+
+TEST(Need, APreparedQueryAllocatesNothing) {
+  RandomScenes random(32);
+  for (int k = 0; k < 900; ++k) {
+    const int dimension = 1 + k % 3;
+    const Scene scene = random.scene(dimension, static_cast<Family>(k / 3 % 3), k % 2 == 0);
+    const Settings settings = resolve_settings({}, scene);
+    for (const Query query : {Query::intersect, Query::distance, Query::penetration}) {
+      const long made = dimension == 1 ? allocations_of<1>(scene, settings, query) : dimension == 2 ? allocations_of<2>(scene, settings, query) : allocations_of<3>(scene, settings, query);
+      EXPECT_EQ(made, 0) << "scene " << k << " " << query_names[static_cast<std::size_t>(query)];
+      if (testing::Test::HasFailure()) return;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gjkdbg
