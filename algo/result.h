@@ -1,6 +1,7 @@
 // The answer to a query, in world coordinates.
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <string>
@@ -9,6 +10,14 @@
 #include "shapes/vector.h"
 
 namespace gjkdbg {
+
+/// A body at the end of a cast or a simulation; units as in BodyState of algo/trace.h.
+struct FinalState {
+  AnyVector position;
+  std::vector<double> orientation;
+  AnyVector velocity;
+  std::vector<double> angular_velocity;
+};
 
 struct ContactPoint {
   AnyVector point_a, point_b;  ///< on body 0 and body 1, world frame
@@ -25,6 +34,12 @@ struct Result {
   std::optional<AnyVector> witness_a, witness_b;
   std::optional<double> lower_bound, upper_bound;
   std::optional<std::vector<ContactPoint>> contacts;
+  // Of a cast: the bodies are surely apart until `time` and surely touch at `touching_at` (unset when they graze by less than can be told);
+  // normal and witnesses are those at `time`. Of a simulation: the time reached.
+  std::optional<double> time, touching_at;
+  std::optional<std::array<int, 2>> pair;           ///< the bodies that meet
+  std::optional<std::vector<FinalState>> bodies;    ///< after responses, or at the end of a simulation
+  std::optional<double> energy;                     ///< of a simulation, at the end
   std::string status;  ///< of the phase that gave the answer; "aborted": there is none, `intersecting` means nothing
   int iterations = 0;
   int support_calls = 0;

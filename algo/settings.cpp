@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -16,6 +17,7 @@ bool curved(const Shape& shape) {
 /// Polytopes are solved to the rounding floor in finitely many steps; curved pairs converge step by step, and EPA's
 /// steps on them are dear.
 double default_tolerance(const Scene& scene, const Settings& s) {
+  if (scene.query == Query::cast) return s.scalar == Scalar::float_precision ? 1e-5 : 1e-9;
   bool round = false;
   for (const Body& body : scene.bodies) round = round || curved(body.shape);
   if (s.scalar == Scalar::float_precision) return round ? 1e-4 : 1e-6;
@@ -36,6 +38,24 @@ void check_polytopes(const Scene& scene) {
       refuse("method \"sat\" needs polytopes with or without a radius; body \"" + body.name + "\" is a " + type_name(body.shape, scene.dimension), "/method/name");
 }
 
+bool of_cast(MethodName name) { return name >= MethodName::conservative_advancement; }
+
+void check_motion(const Settings& s, const Scene& scene) {
+  const std::string name(method_names[static_cast<std::size_t>(s.name)]);
+  if (scene.query != Query::cast && of_cast(s.name)) refuse("method \"" + name + "\" answers only the query \"cast\"", "/method/name");
+  if (scene.query == Query::cast && !of_cast(s.name)) refuse("the query \"cast\" is answered by conservative-advancement, ray-cast or root-finding, not \"" + name + "\"", "/method/name");
+  if (scene.query == Query::simulate && s.name == MethodName::gjk_boolean) refuse("method \"gjk-boolean\" answers only the query \"intersect\"", "/method/name");
+  if (scene.query != Query::cast && scene.query != Query::simulate) return;
+  const bool all = scene.motion && std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) { return body.motion.has_value(); });
+  if (!all) throw Error("missing-motion", "the query \"" + std::string(query_names[static_cast<std::size_t>(scene.query)]) + "\" needs bodies that know how they move", "/query");
+  for (const Body& body : scene.bodies) {
+    const bool turns = body.motion && body.motion->angular_velocity.size() > 0 && !body.motion->angular_velocity.isZero(0);
+    if (s.name == MethodName::ray_cast && turns) refuse("method \"ray-cast\" takes bodies that do not turn; body \"" + body.name + "\" does", "/method/name");
+    if (std::holds_alternative<Mesh>(body.shape.geometry) && scene.query == Query::simulate && body.motion && !body.motion->is_static)
+      refuse("a mesh must be static: body \"" + body.name + "\" moves", "/query");
+  }
+}
+
 void check_numbers(const Settings& s, int dimension) {
   if (!(s.tolerance > 0 && s.tolerance < 1)) throw Error("out-of-range", "tolerance must lie between 0 and 1", "/method/tolerance");
   if (s.max_iterations < 1 || s.max_iterations > 1000000)
@@ -50,10 +70,10 @@ void check_numbers(const Settings& s, int dimension) {
 }  // namespace
 
 Settings resolve_settings(const Method& method, const Scene& scene) {
-  if (scene.query == Query::cast || scene.query == Query::simulate)
-    throw Error("unsupported-query", "query \"" + std::string(query_names[static_cast<std::size_t>(scene.query)]) + "\" is not available yet", "/query");
   Settings s;
-  s.name = method.name.value_or(s.name);
+  const MethodName plain = scene.query == Query::cast ? MethodName::conservative_advancement : MethodName::gjk;
+  s.name = method.name.value_or(plain);
+  if (s.name == MethodName::gjk) s.name = plain;  // of a cast: with GJK inside
   s.closest_point = method.closest_point.value_or(s.closest_point);
   s.penetration = method.penetration.value_or(s.name == MethodName::mpr ? Penetration::mpr : s.penetration);
   s.stopping = method.stopping.value_or(s.stopping);
@@ -63,6 +83,7 @@ Settings resolve_settings(const Method& method, const Scene& scene) {
   s.max_iterations = method.max_iterations.value_or(s.max_iterations);
   s.initial_direction = method.initial_direction;
   if (s.name == MethodName::sat) check_polytopes(scene);
+  check_motion(s, scene);
   check_numbers(s, scene.dimension);
   if (s.name == MethodName::gjk_boolean && scene.query != Query::intersect)
     refuse("method \"gjk-boolean\" answers only the query \"intersect\"", "/method/name");

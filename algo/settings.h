@@ -9,8 +9,12 @@
 
 namespace gjkdbg {
 
-enum class MethodName { gjk, gjk_boolean, gjk_accelerated, mpr, sat };
-inline constexpr std::array<std::string_view, 5> method_names{"gjk", "gjk-boolean", "gjk-accelerated", "mpr", "sat"};
+enum class MethodName {
+  gjk, gjk_boolean, gjk_accelerated, mpr, sat,
+  conservative_advancement, ray_cast, root_finding  ///< of `cast`; GJK runs inside (algo/cast.h)
+};
+inline constexpr std::array<std::string_view, 8> method_names{"gjk", "gjk-boolean", "gjk-accelerated", "mpr", "sat",
+                                                              "conservative-advancement", "ray-cast", "root-finding"};
 
 /// The sub-algorithm that finds the point of a simplex closest to the origin.
 enum class ClosestPoint { signed_volumes, johnson, voronoi };

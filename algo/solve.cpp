@@ -5,7 +5,9 @@
 #include <cmath>
 #include <string>
 
+#include "algo/cast.h"
 #include "algo/contact.h"
+#include "algo/simulate.h"
 #include "algo/solve_pair.h"
 #include "shapes/error.h"
 
@@ -78,8 +80,7 @@ void merge(std::optional<Result>& total, const Result& part) {
 }
 
 template <int D, class S, class Sink>
-Result solve_scene(const Scene& scene, const Settings& settings, Sink& sink) {
-  TraceNumbers numbers;
+Result solve_scene(const Scene& scene, const Settings& settings, Sink& sink, TraceNumbers& numbers) {
   const Body &a = scene.bodies[0], &b = scene.bodies[1];
   const std::vector<Shape> parts_a = convex_parts(a.shape), parts_b = convex_parts(b.shape);
   std::optional<Result> total;
@@ -97,13 +98,13 @@ Result solve_scene(const Scene& scene, const Settings& settings, Sink& sink) {
 }
 
 template <class Sink>
-Result dispatch(const Scene& scene, const Settings& settings, Sink& sink) {
+Result dispatch(const Scene& scene, const Settings& settings, Sink& sink, TraceNumbers& numbers) {
   assert(scene.bodies.size() == 2);
   const bool single = settings.scalar == Scalar::float_precision;
   switch (scene.dimension) {
-    case 1: return single ? solve_scene<1, float>(scene, settings, sink) : solve_scene<1, double>(scene, settings, sink);
-    case 2: return single ? solve_scene<2, float>(scene, settings, sink) : solve_scene<2, double>(scene, settings, sink);
-    default: return single ? solve_scene<3, float>(scene, settings, sink) : solve_scene<3, double>(scene, settings, sink);
+    case 1: return single ? solve_scene<1, float>(scene, settings, sink, numbers) : solve_scene<1, double>(scene, settings, sink, numbers);
+    case 2: return single ? solve_scene<2, float>(scene, settings, sink, numbers) : solve_scene<2, double>(scene, settings, sink, numbers);
+    default: return single ? solve_scene<3, float>(scene, settings, sink, numbers) : solve_scene<3, double>(scene, settings, sink, numbers);
   }
 }
 
@@ -131,13 +132,24 @@ double rounding_floor(const Scene& scene, const Settings& settings) {
 }
 
 Result solve(const Scene& scene, const Settings& settings) {
+  if (scene.query == Query::cast) return cast(scene, settings, nullptr);
+  if (scene.query == Query::simulate) return simulate(scene, settings, nullptr);
   NoSink sink;
-  return dispatch(scene, settings, sink);
+  TraceNumbers numbers;
+  return dispatch(scene, settings, sink, numbers);
+}
+
+Result solve_static(const Scene& scene, const Settings& settings, TraceSink* trace, TraceNumbers& numbers) {
+  NoSink sink;
+  return trace ? dispatch(scene, settings, *trace, numbers) : dispatch(scene, settings, sink, numbers);
 }
 
 Result solve(const Scene& scene, const Settings& settings, TraceSink& trace) {
   for (const SceneWarning& warning : scene.warnings) trace(world::Warning{warning.code, warning.message});
-  return dispatch(scene, settings, trace);
+  if (scene.query == Query::cast) return cast(scene, settings, &trace);
+  if (scene.query == Query::simulate) return simulate(scene, settings, &trace);
+  TraceNumbers numbers;
+  return dispatch(scene, settings, trace, numbers);
 }
 
 }  // namespace gjkdbg

@@ -24,6 +24,13 @@ using MprEnded = gjkdbg::MprEnded<AnyVector, Viewed>;
 using SatBegan = gjkdbg::SatBegan<AnyVector, Viewed>;
 using AxisTested = gjkdbg::AxisTested<AnyVector, Viewed>;
 using SatEnded = gjkdbg::SatEnded<AnyVector, Viewed>;
+using CastBegan = gjkdbg::CastBegan<AnyVector, Viewed>;
+using CastAdvanced = gjkdbg::CastAdvanced<AnyVector, Viewed>;
+using CastEnded = gjkdbg::CastEnded<AnyVector, Viewed>;
+using BodyState = gjkdbg::BodyState<AnyVector, Viewed>;
+using State = gjkdbg::State<AnyVector, Viewed>;
+using ContactFound = gjkdbg::ContactFound<AnyVector, Viewed>;
+using ImpulseApplied = gjkdbg::ImpulseApplied<AnyVector, Viewed>;
 using Warning = gjkdbg::Warning<AnyVector, Viewed>;
 }  // namespace world
 

@@ -41,6 +41,15 @@ enum class MprStatus {
 };
 inline constexpr std::array<std::string_view, 6> mpr_status_names{"converged", "overlapping", "separated", "flat", "stalled", "iteration_limit"};
 
+enum class CastStatus {
+  hit,                    ///< they meet; `time` is before that, by no more than the tolerance
+  miss,                   ///< they do not meet in the interval
+  initially_overlapping,  ///< they overlap at the beginning
+  at_rest,                ///< after responses: nothing moves any more
+  iteration_limit,        ///< apart until `time`; no more is known
+};
+inline constexpr std::array<std::string_view, 5> cast_status_names{"hit", "miss", "initially_overlapping", "at_rest", "iteration_limit"};
+
 enum class SatStatus {
   overlapping,  ///< no axis separates; the least overlap is the depth
   separated,    ///< the last axis separates

@@ -104,6 +104,10 @@ class WorldTrace {
     sink_(world::SatEnded{e.iteration, e.status, frame_.direction(e.normal), length(e.distance)});
   }
 
+  void operator()(const CastAdvanced<V, Viewed>& e) {
+    sink_(world::CastAdvanced{e.iteration, e.time, e.pair, length(e.distance), frame_.direction(e.normal), length(e.bound)});
+  }
+
   void operator()(const Warning<V, Viewed>& e) { sink_(world::Warning{e.code, e.message}); }
 
  private:

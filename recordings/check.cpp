@@ -38,7 +38,8 @@ CheckContext::CheckContext(const Recording& r) : recording(r), dimension(r.scene
   const auto& bodies = r.scene.scene.bodies;
   for (const Event& event : r.events)
     if (const auto* q = std::get_if<recorded::SupportQueried>(&event)) size = std::max(size, q->w.norm());
-  has_supports = std::none_of(bodies.begin(), bodies.end(), [](const Body& b) { return std::holds_alternative<Mesh>(b.shape.geometry); });
+  const bool moves = r.scene.scene.query == Query::cast || r.scene.scene.query == Query::simulate;
+  has_supports = !moves && std::none_of(bodies.begin(), bodies.end(), [](const Body& b) { return std::holds_alternative<Mesh>(b.shape.geometry); });
   for (const Body& b : bodies) size = std::max(size, size_of(b.shape));
   if (size == 0) size = 1;
   const bool single = r.settings.scalar == Scalar::float_precision;
@@ -155,6 +156,13 @@ struct Walk {
   void operator()(const recorded::SatBegan&) {}
   void operator()(const recorded::AxisTested& e) { best_plane = std::max(best_plane, e.distance + c.radius); }
   void operator()(const recorded::SatEnded&) {}
+  /// Judged as a whole by check_motion.
+  void operator()(const recorded::CastBegan&) {}
+  void operator()(const recorded::CastAdvanced&) {}
+  void operator()(const recorded::CastEnded&) {}
+  void operator()(const recorded::State&) {}
+  void operator()(const recorded::ContactFound&) {}
+  void operator()(const recorded::ImpulseApplied&) {}
   /// What `run` noted when a solver failed.
   void operator()(const recorded::Warning& e) {
     for (const char* code : {"timeout", "crash", "bad-message", "support-limit", "no-result"})
@@ -170,6 +178,11 @@ std::vector<Finding> check(const Recording& recording) {
   for (std::size_t i = 0; i < recording.events.size(); ++i) {
     context.step = i;
     std::visit(walk, recording.events[i]);
+  }
+  const Query query = recording.scene.scene.query;
+  if (query == Query::cast || query == Query::simulate) {
+    check_motion(context);
+    return context.take();
   }
   if (recording.result.status != "aborted") check_result(context, walk.best_plane);
   check_need(context);

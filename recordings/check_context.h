@@ -122,6 +122,8 @@ class EpaCheck {
 
 /// The answer against our own.
 void check_result(CheckContext& context, double best_plane);
+/// A cast or a simulation: tunnelling, energy, momentum, sinking, normals (check_motion.cpp).
+void check_motion(CheckContext& context);
 /// Whether the scene asks for more than is read of it.
 void check_need(CheckContext& context);
 

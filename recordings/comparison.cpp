@@ -70,6 +70,8 @@ std::vector<std::string> missed_expectations(const SceneFile& scene, const Resul
     missed.push_back(std::string("intersecting is ") + (result.intersecting ? "true" : "false") + ", expected " + (*e.intersecting ? "true" : "false"));
   if (e.signed_distance && result.signed_distance && !(std::abs(*result.signed_distance - *e.signed_distance) <= e.tolerance))
     missed.push_back("signed_distance is " + number(*result.signed_distance) + ", expected " + number(*e.signed_distance) + " within " + number(e.tolerance));
+  if (e.time && !(result.time && std::abs(*result.time - *e.time) <= e.tolerance))
+    missed.push_back("time is " + (result.time ? number(*result.time) : std::string("not known")) + ", expected " + number(*e.time) + " within " + number(e.tolerance));
   if (e.normal && result.normal && !((*result.normal - *e.normal).cwiseAbs().maxCoeff() <= e.tolerance)) {
     std::string is, expected;
     append_vector(is, *result.normal);

@@ -50,6 +50,7 @@ void append_value(std::string& out, Phase p) { append_string(out, phase_names[st
 void append_value(std::string& out, GjkStatus s) { append_string(out, gjk_status_names[static_cast<std::size_t>(s)]); }
 void append_value(std::string& out, EpaStatus s) { append_string(out, epa_status_names[static_cast<std::size_t>(s)]); }
 void append_value(std::string& out, MprStatus s) { append_string(out, mpr_status_names[static_cast<std::size_t>(s)]); }
+void append_value(std::string& out, CastStatus s) { append_string(out, cast_status_names[static_cast<std::size_t>(s)]); }
 void append_value(std::string& out, SatStatus s) { append_string(out, sat_status_names[static_cast<std::size_t>(s)]); }
 void append_value(std::string& out, AxisSource s) { append_string(out, axis_source_names[static_cast<std::size_t>(s)]); }
 void append_value(std::string& out, const Edge& e) {
@@ -60,6 +61,7 @@ void append_value(std::string& out, const Edge& e) {
   out += ']';
 }
 void append_value(std::string& out, const recorded::Face& face);
+void append_value(std::string& out, const recorded::BodyState& body);
 
 template <class T>
 void append_value(std::string& out, const std::vector<T>& list) {
@@ -87,6 +89,37 @@ void append_value(std::string& out, const recorded::Face& face) {
   out += '{';
   append_fields(out, face, true);
   out += '}';
+}
+void append_value(std::string& out, const recorded::BodyState& body) {
+  out += '{';
+  append_fields(out, body, true);
+  out += '}';
+}
+
+/// What a cast or a simulation answers.
+void append_motion(std::string& out, const Result& r, Query query) {
+  const auto number = [&](std::string_view name, const std::optional<double>& x) {
+    append_key(out, name);
+    append_number(out, x.value_or(NAN));
+  };
+  number("time", r.time);
+  if (query == Query::cast) {
+    number("touching_at", r.touching_at);
+    append_key(out, "pair");
+    if (r.pair) append_value(out, Edge{(*r.pair)[0], (*r.pair)[1]});
+    else out += "null";
+  } else {
+    number("energy", r.energy);
+  }
+  if (!r.bodies) return;
+  append_key(out, "bodies");
+  out += '[';
+  for (std::size_t i = 0; i < r.bodies->size(); ++i) {
+    const FinalState& b = (*r.bodies)[i];
+    if (i > 0) out += ',';
+    append_value(out, recorded::BodyState{b.position, b.orientation, b.velocity, b.angular_velocity});
+  }
+  out += ']';
 }
 
 }  // namespace
@@ -119,11 +152,15 @@ void append_result(std::string& out, const Result& r, Query query, std::string_v
     append_key(out, name);
     append_vector(out, v.value_or(AnyVector()));
   };
-  if (query != Query::intersect) {
-    number("signed_distance", r.signed_distance);
+  const bool moves = query == Query::cast || query == Query::simulate;
+  if (moves) append_motion(out, r, query);
+  if (query != Query::intersect && query != Query::simulate) {
+    if (!moves) number("signed_distance", r.signed_distance);
     vector("normal", r.normal);
     vector("witness_a", r.witness_a);
     vector("witness_b", r.witness_b);
+  }
+  if (query != Query::intersect && !moves) {
     number("lower_bound", r.lower_bound);
     number("upper_bound", r.upper_bound);
   }

@@ -32,6 +32,13 @@ using MprEnded = gjkdbg::MprEnded<AnyVector, Owned>;
 using SatBegan = gjkdbg::SatBegan<AnyVector, Owned>;
 using AxisTested = gjkdbg::AxisTested<AnyVector, Owned>;
 using SatEnded = gjkdbg::SatEnded<AnyVector, Owned>;
+using CastBegan = gjkdbg::CastBegan<AnyVector, Owned>;
+using CastAdvanced = gjkdbg::CastAdvanced<AnyVector, Owned>;
+using CastEnded = gjkdbg::CastEnded<AnyVector, Owned>;
+using BodyState = gjkdbg::BodyState<AnyVector, Owned>;
+using State = gjkdbg::State<AnyVector, Owned>;
+using ContactFound = gjkdbg::ContactFound<AnyVector, Owned>;
+using ImpulseApplied = gjkdbg::ImpulseApplied<AnyVector, Owned>;
 using Warning = gjkdbg::Warning<AnyVector, Owned>;
 }  // namespace recorded
 
@@ -78,6 +85,7 @@ class Recorder final : public SinkTaking<Recorder> {
     for (std::size_t i = 0; i < from.size(); ++i) keep(from[i], to[i]);
   }
   static void keep(const FaceEvent<AnyVector, Viewed>& from, recorded::Face& to) { keep_fields(from, to); }
+  static void keep(const world::BodyState& from, recorded::BodyState& to) { keep_fields(from, to); }
 
   /// Both declare the same fields in the same order.
   template <class From, class To>

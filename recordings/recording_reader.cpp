@@ -42,6 +42,10 @@ struct FieldReader {
   void read(const Json& json, const Place& place, std::string_view, MprStatus& s) const {
     s = static_cast<MprStatus>(read_enum(json, place, mpr_status_names));
   }
+  void read(const Json& json, const Place& place, std::string_view, CastStatus& s) const {
+    s = static_cast<CastStatus>(read_enum(json, place, cast_status_names));
+  }
+  void read(const Json& json, const Place& place, std::string_view, recorded::BodyState& body) const { read_fields(json, place, body, false); }
   void read(const Json& json, const Place& place, std::string_view, SatStatus& s) const {
     s = static_cast<SatStatus>(read_enum(json, place, sat_status_names));
   }
@@ -154,6 +158,23 @@ Result read_result(const Json& json, const Place& place, int dimension) {
       r.contacts->push_back({read_vector(c.required("point_a"), c.at("point_a"), dimension),
                              read_vector(c.required("point_b"), c.at("point_b"), dimension), read_number(c.required("depth"), c.at("depth"))});
       c.finish();
+    }
+  }
+  r.time = read_optional_number(o, "time");
+  r.touching_at = read_optional_number(o, "touching_at");
+  r.energy = read_optional_number(o, "energy");
+  if (const Json* pair = o.optional("pair"); pair && !pair->is_null()) {
+    if (!pair->is_array() || pair->size() != 2) reject(o.at("pair"), "wrong-count", "must be a pair of bodies");
+    r.pair = {read_integer((*pair)[0], o.at("pair"), 0, largest_number), read_integer((*pair)[1], o.at("pair"), 0, largest_number)};
+  }
+  if (const Json* list = o.optional("bodies"); list && !list->is_null()) {
+    const Place at = o.at("bodies");
+    if (!list->is_array()) reject(at, "wrong-type", "must be an array");
+    r.bodies.emplace();
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      recorded::BodyState state;
+      FieldReader{dimension}.read_fields((*list)[i], Place(at, i), state, false);
+      r.bodies->push_back({state.position, state.orientation, state.velocity, state.angular_velocity});
     }
   }
   r.iterations = read_integer(o.required("iterations"), o.at("iterations"), 0, largest_number);

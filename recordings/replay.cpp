@@ -1,6 +1,9 @@
 #include "recordings/replay.h"
 
+#include "algo/motion.h"
+
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace gjkdbg {
@@ -13,8 +16,7 @@ struct Apply {
   const Recording& recording;
 
   void operator()(const recorded::GjkBegan& e) {
-    frame = Frame{};
-    frame.step = step;
+    fresh();
     frame.stage = Frame::Stage::gjk;
     frame.direction = e.direction;
   }
@@ -120,8 +122,7 @@ struct Apply {
   }
 
   void operator()(const recorded::SatBegan&) {
-    frame = Frame{};
-    frame.step = step;
+    fresh();
     frame.stage = Frame::Stage::sat;
   }
 
@@ -139,7 +140,74 @@ struct Apply {
 
   void operator()(const recorded::Warning&) {}
 
+  void operator()(const recorded::CastBegan&) {
+    if (frame.places.empty()) places_after(0, 0);
+  }
+  void operator()(const recorded::CastAdvanced& e) {
+    frame.iteration = e.iteration;
+    frame.pair = e.pair;
+    advance_to(e.time);
+    frame.stage = Frame::Stage::done;
+  }
+  void operator()(const recorded::CastEnded& e) {
+    frame.iteration = e.iteration;
+    advance_to(e.time);
+    if (e.pair.size() == 2) frame.pair = {e.pair[0], e.pair[1]};
+    frame.stage = Frame::Stage::done;
+  }
+  void operator()(const recorded::State& e) {
+    frame.places.clear();
+    for (const recorded::BodyState& b : e.bodies) {
+      AnyMatrix rotation = AnyMatrix::Identity(b.position.size(), b.position.size());
+      if (b.position.size() > 1 && b.orientation.size() == 4) {
+        const Quaternion q{{b.orientation[0], b.orientation[1], b.orientation[2], b.orientation[3]}};
+        const double length = std::hypot(std::hypot(q.wxyz[0], q.wxyz[1]), std::hypot(q.wxyz[2], q.wxyz[3]));
+        if (std::abs(length - 1) < 1e-6) rotation = resolve(q, 3).matrix.topLeftCorner(b.position.size(), b.position.size());
+      }
+      frame.places.push_back({b.position, rotation, b.velocity});
+    }
+    frame.time = e.time;
+    frame.stage = Frame::Stage::done;
+    frame.simplex.clear(), frame.faces.clear(), frame.chosen.reset(), frame.normal.reset(), frame.depth.reset(), frame.newest.reset();
+  }
+  void operator()(const recorded::ContactFound& e) { frame.pair = e.pair; }
+  void operator()(const recorded::ImpulseApplied& e) { frame.pair = e.pair; }
+
  private:
+  /// A run begins: nothing of the one before holds, but for where the bodies are.
+  void fresh() {
+    Frame next;
+    next.step = step;
+    next.time = frame.time, next.pair = frame.pair, next.places = std::move(frame.places);
+    frame = std::move(next);
+  }
+
+  /// From where the last state left the bodies, or where the scene has them.
+  void places_after(double from, double time) {
+    const Scene& scene = recording.scene.scene;
+    std::vector<Frame::Place> places;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      Body body = scene.bodies[i];
+      if (i < frame.places.size() && from > 0) body.pose.position = frame.places[i].position, body.pose.matrix = frame.places[i].rotation, body.motion->velocity = frame.places[i].velocity;
+      const Body at = moved(body, time - from, scene.dimension);
+      places.push_back({at.pose.position, at.pose.matrix, at.motion ? at.motion->velocity : AnyVector(AnyVector::Zero(scene.dimension))});
+    }
+    frame.places = std::move(places);
+    frame.time = time;
+  }
+
+  void advance_to(double time) { places_after(last_state_time(), time); }
+
+  /// The time of the last response before this step; before the first, 0.
+  double last_state_time() {
+    for (std::size_t i = step; i-- > 0;)
+      if (const auto* state = std::get_if<recorded::State>(&recording.events[i])) {
+        if (frame.time != state->time) (*this)(*state);
+        return state->time;
+      }
+    return 0;
+  }
+
   void add(const std::vector<recorded::Face>& faces) {
     for (const auto& f : faces) {
       frame.faces[f.face] = {f.face, step, f.vertices, f.normal, f.distance};

@@ -63,6 +63,17 @@ struct Frame {
   /// The vertices that simplex, seeds, portal, dropped, newest, faces and removed refer to.
   std::map<int, FrameVertex> vertices;
 
+  /// Cast and simulate: the time, where each body is then, and the pair that was looked at last.
+  std::optional<double> time;
+  struct Place {
+    AnyVector position;
+    AnyMatrix rotation;
+    AnyVector velocity;
+    bool operator==(const Place&) const = default;
+  };
+  std::vector<Place> places;
+  std::array<int, 2> pair{0, 1};
+
   std::optional<GjkStatus> gjk_status;
   std::optional<EpaStatus> epa_status;
   std::optional<MprStatus> mpr_status;

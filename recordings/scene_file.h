@@ -21,6 +21,7 @@ struct Expectation {
   std::optional<bool> intersecting;
   std::optional<double> signed_distance;
   std::optional<AnyVector> normal;
+  std::optional<double> time;  ///< of a cast
   double tolerance = 1e-9;  ///< absolute, on the signed distance and on every component of the normal
 };
 

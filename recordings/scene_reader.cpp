@@ -1,3 +1,4 @@
+#include <limits>
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -47,13 +48,14 @@ class SceneReader {
     const Json& bodies = o.required("bodies");
     const Place at_bodies = o.at("bodies");
     if (!bodies.is_array()) reject(at_bodies, "wrong-type", "must be an array of bodies");
-    if (bodies.size() < 2 || (!moving && bodies.size() != 2))
-      reject(at_bodies, "wrong-count", "must hold two bodies, not " + std::to_string(bodies.size()));
-    for (std::size_t i = 0; i < bodies.size(); ++i) scene.bodies.push_back(body(bodies[i], Place(at_bodies, i), moving));
+    const std::size_t least = scene.query == Query::simulate ? 1 : 2;
+    if (bodies.size() < least || (!moving && bodies.size() != 2))
+      reject(at_bodies, "wrong-count", std::string("must hold ") + (moving ? least == 1 ? "a body" : "two bodies or more" : "two bodies") + ", not " + std::to_string(bodies.size()));
+    if (bodies.size() > 1000) reject(at_bodies, "wrong-count", "must hold at most 1000 bodies");
+    for (std::size_t i = 0; i < bodies.size(); ++i) scene.bodies.push_back(body(bodies[i], Place(at_bodies, i), scene.query));
+    if (moving) scene_motion(o);
     if (const Json* m = o.optional("method")) file_.method = read_method(*m, o.at("method"), dimension_);
     if (const Json* e = o.optional("expect")) expectation(*e, o.at("expect"));
-    if (scene.query == Query::simulate)
-      for (const char* key : {"gravity", "time_step", "steps", "integrator"}) o.optional(key);
     o.finish();
     file_.directory = directory_;
     return std::move(file_);
@@ -78,7 +80,60 @@ class SceneReader {
     }
   }
 
-  Body body(const Json& json, const Place& place, bool moving) {
+  double at_least(ObjectReader& o, const char* key, double value, double low, double high = std::numeric_limits<double>::infinity()) {
+    const Json* j = o.optional(key);
+    if (!j) return value;
+    const double x = read_number(*j, o.at(key));
+    if (!(x >= low && x <= high)) reject(o.at(key), "out-of-range", high < 1e300 ? "must lie between " + short_text(low) + " and " + short_text(high) : low > 0 ? "must be positive" : "must not be negative");
+    return x;
+  }
+  static std::string short_text(double x) { return x == std::floor(x) ? std::to_string(static_cast<long>(x)) : std::to_string(x); }
+
+  AnyVector bounded(const Json& json, const Place& place, int size) {
+    AnyVector v = read_vector(json, place, size);
+    if (v.cwiseAbs().maxCoeff() > 1e30) reject(place, "out-of-range", "must not be beyond 1e30");
+    return v;
+  }
+
+  void scene_motion(ObjectReader& o) {
+    SceneMotion m;
+    m.gravity = AnyVector::Zero(dimension_);
+    if (file_.scene.query == Query::cast) {
+      if (const Json* j = o.optional("response")) m.response = static_cast<Response>(read_enum(*j, o.at("response"), response_names));
+    } else {
+      if (const Json* j = o.optional("gravity")) m.gravity = bounded(*j, o.at("gravity"), dimension_);
+      m.time_step = at_least(o, "time_step", m.time_step, 1e-12);
+      if (const Json* j = o.optional("steps")) m.steps = read_integer(*j, o.at("steps"), 1, 1000000);
+      if (const Json* j = o.optional("integrator")) m.integrator = static_cast<Integrator>(read_enum(*j, o.at("integrator"), integrator_names));
+    }
+    file_.scene.motion = m;
+  }
+
+  /// Degrees in files, radians here. In 2D a number.
+  AnyVector angular_velocity(const Json& json, const Place& place) {
+    if (dimension_ == 1) reject(place, "wrong-dimension", "nothing turns in one dimension");
+    AnyVector w(dimension_ == 2 ? 1 : 3);
+    if (dimension_ == 2 && json.is_number()) w[0] = read_number(json, place);
+    else w = bounded(json, place, dimension_ == 2 ? 1 : 3);
+    for (double& x : w) x = radians_from_degrees(x);
+    return w;
+  }
+
+  Motion motion(ObjectReader& o, Query query) {
+    Motion m;
+    m.velocity = AnyVector::Zero(dimension_);
+    m.angular_velocity = AnyVector::Zero(dimension_ == 1 ? 0 : dimension_ == 2 ? 1 : 3);
+    if (const Json* j = o.optional("velocity")) m.velocity = bounded(*j, o.at("velocity"), dimension_);
+    if (const Json* j = o.optional("angular_velocity")) m.angular_velocity = angular_velocity(*j, o.at("angular_velocity"));
+    m.restitution = at_least(o, "restitution", m.restitution, 0, 1);
+    if (query != Query::simulate) return m;
+    m.mass = at_least(o, "mass", m.mass, 1e-30);
+    m.friction = at_least(o, "friction", m.friction, 0);
+    if (const Json* j = o.optional("static")) m.is_static = read_bool(*j, o.at("static"));
+    return m;
+  }
+
+  Body body(const Json& json, const Place& place, Query query) {
     ObjectReader o(json, place);
     Body b;
     if (const auto it = json.find("name"); it != json.end()) b.name = read_string(*it, o.at("name"));
@@ -91,8 +146,7 @@ class SceneReader {
     }
     const Json* pose_json = o.optional("pose");
     b.pose = pose_json ? pose(*pose_json, o.at("pose")) : identity_pose(dimension_);
-    if (moving)
-      for (const char* key : {"velocity", "angular_velocity", "mass", "restitution", "static"}) o.optional(key);
+    if (query == Query::cast || query == Query::simulate) b.motion = motion(o, query);
     o.finish();
     return b;
   }
@@ -321,6 +375,7 @@ class SceneReader {
     if (const Json* j = o.optional("intersecting")) e.intersecting = read_bool(*j, o.at("intersecting"));
     if (const Json* j = o.optional("signed_distance")) e.signed_distance = read_number(*j, o.at("signed_distance"));
     if (const Json* j = o.optional("normal")) e.normal = read_vector(*j, o.at("normal"), dimension_);
+    if (const Json* j = o.optional("time")) e.time = read_number(*j, o.at("time"));
     if (const Json* j = o.optional("tolerance")) e.tolerance = read_number(*j, o.at("tolerance"));
     if (!(e.tolerance >= 0)) reject(o.at("tolerance"), "out-of-range", "must not be negative");
     o.finish();

@@ -107,12 +107,27 @@ struct RotationWriter {
   Json operator()(const PlaneAngle& a) const { return {{"angle", degrees_from_radians(a.angle)}}; }
 };
 
+/// What differs from rest and the defaults.
+void write_motion(Json& out, const Motion& m) {
+  if (!m.velocity.isZero(0)) out["velocity"] = json_of(m.velocity);
+  if (m.angular_velocity.size() > 0 && !m.angular_velocity.isZero(0)) {
+    Json degrees = Json::array();
+    for (const double x : m.angular_velocity) degrees.push_back(degrees_from_radians(x));
+    out["angular_velocity"] = m.angular_velocity.size() == 1 ? degrees[0] : degrees;
+  }
+  if (m.mass != 1) out["mass"] = m.mass;
+  if (m.restitution != 0) out["restitution"] = m.restitution;
+  if (m.friction != 0) out["friction"] = m.friction;
+  if (m.is_static) out["static"] = true;
+}
+
 Json json_of(const Body& body, int dimension, MeshNotation notation) {
   Json out = Json::object();
   if (!body.name.empty()) out["name"] = body.name;
   out["shape"] = ShapeWriter{dimension, notation}.write(body.shape);
   out["pose"] = {{"position", json_of(body.pose.position)}};
   if (const Json rotation = std::visit(RotationWriter{}, body.pose.rotation); !rotation.is_null()) out["pose"]["rotation"] = rotation;
+  if (body.motion) write_motion(out, *body.motion);
   return out;
 }
 
@@ -135,6 +150,7 @@ Json json_of(const Expectation& e) {
   if (e.intersecting) out["intersecting"] = *e.intersecting;
   if (e.signed_distance) out["signed_distance"] = *e.signed_distance;
   if (e.normal) out["normal"] = json_of(*e.normal);
+  if (e.time) out["time"] = *e.time;
   out["tolerance"] = e.tolerance;
   return out;
 }
@@ -153,6 +169,13 @@ Json scene_to_json(const SceneFile& file, MeshNotation notation) {
   out["query"] = query_names[static_cast<std::size_t>(scene.query)];
   out["bodies"] = Json::array();
   for (const Body& body : scene.bodies) out["bodies"].push_back(json_of(body, scene.dimension, notation));
+  if (scene.motion && scene.query == Query::cast && scene.motion->response != Response::stop) out["response"] = response_names[static_cast<std::size_t>(scene.motion->response)];
+  if (scene.motion && scene.query == Query::simulate) {
+    if (!scene.motion->gravity.isZero(0)) out["gravity"] = json_of(scene.motion->gravity);
+    out["time_step"] = scene.motion->time_step;
+    out["steps"] = scene.motion->steps;
+    out["integrator"] = integrator_names[static_cast<std::size_t>(scene.motion->integrator)];
+  }
   if (const Json method = json_of(file.method); !method.empty()) out["method"] = method;
   if (file.expect) out["expect"] = json_of(*file.expect);
   return out;

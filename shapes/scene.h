@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,10 +24,42 @@ enum class Query {
 inline constexpr std::array<std::string_view, 6> query_names{"intersect", "distance", "penetration",
                                                              "contact",   "cast",     "simulate"};
 
+/// What a cast does when bodies meet.
+enum class Response { stop, slide, bounce };
+inline constexpr std::array<std::string_view, 3> response_names{"stop", "slide", "bounce"};
+
+/// How a simulation goes from one time to the next.
+enum class Integrator {
+  explicit_euler,       ///< all rates at the old state; the rotation matrix is orthonormalised after Gram and Schmidt
+  semi_implicit_euler,  ///< momenta first, then places with the new ones; rotation by the exponential map at the middle of the step
+  rk4,                  ///< Runge and Kutta's fourth order, on the quaternion
+};
+inline constexpr std::array<std::string_view, 3> integrator_names{"explicit-euler", "semi-implicit-euler", "rk4"};
+
+/// How a body moves; only in the scenes of `cast` and `simulate`. World axes; the body turns about its pose's position.
+struct Motion {
+  AnyVector velocity;          ///< per unit of time (of a cast: the whole interval)
+  AnyVector angular_velocity;  ///< radians per unit of time: 3 numbers in 3D, 1 in 2D, none in 1D
+  double mass = 1;             ///< > 0
+  double restitution = 0;      ///< 0 … 1: of a contact the larger of the two counts
+  double friction = 0;         ///< Coulomb's coefficient; of a contact the geometric mean
+  bool is_static = false;      ///< never moves, of infinite mass
+};
+
 struct Body {
   std::string name;
   Shape shape;
   Pose pose;
+  std::optional<Motion> motion = std::nullopt;
+};
+
+/// What the scenes of `cast` and `simulate` add to the scene itself.
+struct SceneMotion {
+  Response response = Response::stop;
+  AnyVector gravity;
+  double time_step = 1.0 / 60;
+  int steps = 60;
+  Integrator integrator = Integrator::semi_implicit_euler;
 };
 
 /// Something the reader put right and the user should know.
@@ -40,6 +73,7 @@ struct Scene {
   int dimension = 3;
   Query query = Query::penetration;
   std::vector<Body> bodies;
+  std::optional<SceneMotion> motion;   ///< of `cast` and `simulate`
   std::vector<SceneWarning> warnings;  ///< become the recording's first events
 };
 

@@ -209,7 +209,7 @@ struct Render {
                       "\" font-family=\"Inter, DejaVu Sans, sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"" + hex(palette.view) + "\"/>\n";
     for (const bool world : {true, false}) {
       const double x = world ? 0 : w;
-      const Camera camera = world ? fit_world(session.meshes()) : fit_difference(session.meshes(), session.recording());
+      const Camera camera = world ? fit_world(session.meshes(), session.recording()) : fit_difference(session.meshes(), session.recording());
       const Projection projection(camera, {x, 0, w, h});
       const auto make = world ? world_picture : difference_picture;
       const std::string clip = world ? "world" : "difference";

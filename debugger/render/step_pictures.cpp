@@ -9,9 +9,13 @@
 namespace gjkdbg {
 
 SceneMeshes scene_meshes(const Scene& scene) {
-  const Body &a = scene.bodies[0], &b = scene.bodies[1];
-  const int d = scene.dimension;
-  return {body_mesh(a, d), body_mesh(b, d), difference_mesh(a, b, d), radius_sum(a, b, d), d};
+  SceneMeshes meshes;
+  meshes.dimension = scene.dimension;
+  for (const Body& body : scene.bodies) meshes.bodies.push_back(body_mesh(body, scene.dimension));
+  if (scene.bodies.size() < 2) return meshes;
+  meshes.difference = difference_mesh(scene.bodies[0], scene.bodies[1], scene.dimension);
+  meshes.radius = radius_sum(scene.bodies[0], scene.bodies[1], scene.dimension);
+  return meshes;
 }
 
 std::string simplex_letter(const Frame& frame, int vertex, bool newest_first) {
@@ -32,8 +36,12 @@ class Painter {
 
   Picture world() {
     grid();
-    mesh(meshes_.a, palette_.body_a, 0.16, one_d_offset(0));
-    mesh(meshes_.b, palette_.body_b, 0.16, one_d_offset(1));
+    for (std::size_t i = 0; i < meshes_.bodies.size(); ++i) {
+      const int n = static_cast<int>(i);
+      if (moves()) swept(n);
+      mesh(moves() ? placed(n) : meshes_.bodies[i], body_colour(n), 0.16, one_d_offset(n));
+    }
+    velocities();
     supports();
     answer();
     return std::move(picture_);
@@ -41,7 +49,8 @@ class Painter {
 
   Picture difference() {
     grid();
-    if (settings_.difference) mesh(meshes_.difference, palette_.text_faint, 0.07, ViewPoint::Zero());
+    if (settings_.difference && !moves()) mesh(meshes_.difference, palette_.text_faint, 0.07, ViewPoint::Zero());
+    if (settings_.difference && moves()) mesh(difference_here(), palette_.text_faint, 0.07, ViewPoint::Zero());
     region();
     polytope();
     portal();
@@ -61,6 +70,87 @@ class Painter {
 
   /// Intervals lie over one another: in 1D each is drawn a little off the line.
   ViewPoint one_d_offset(int body) const { return meshes_.dimension == 1 ? ViewPoint(0, (body == 0 ? 0.16 : -0.16) * unit(), 0) : ViewPoint(ViewPoint::Zero()); }
+
+  // --- Bodies that move -------------------------------------------------------------------------------------------------------
+
+  bool moves() const { return frame_.places.size() == meshes_.bodies.size() && !frame_.places.empty(); }
+
+  /// The pair that is looked at in the two colours, all others in grey.
+  Colour body_colour(int i) const {
+    const std::array<int, 2> pair = moves() ? frame_.pair : std::array<int, 2>{0, 1};
+    return i == pair[0] ? palette_.body_a : i == pair[1] ? palette_.body_b : palette_.dropped;
+  }
+
+  /// A body's mesh where the frame has it: p goes to R R0^T (p - x0) + x.
+  DisplayMesh placed(int i) const {
+    const auto k = static_cast<std::size_t>(i);
+    const Body& body = recording_.scene.scene.bodies[k];
+    const Frame::Place& place = frame_.places[k];
+    const AnyMatrix turn = place.rotation * body.pose.matrix.transpose();
+    const auto move = [&](const ViewPoint& p) {
+      const AnyVector from = p.head(meshes_.dimension);
+      return to_view(AnyVector(turn * (from - body.pose.position) + place.position));
+    };
+    DisplayMesh mesh = meshes_.bodies[k];
+    for (ViewPoint& p : mesh.points) p = move(p);
+    if (meshes_.dimension == 3)
+      for (ViewPoint& n : mesh.normals) n = turn * n;
+    return mesh;
+  }
+
+  DisplayMesh difference_here() const {
+    const auto& bodies = recording_.scene.scene.bodies;
+    const auto at = [&](int i) {
+      Body body = bodies[static_cast<std::size_t>(i)];
+      body.pose.position = frame_.places[static_cast<std::size_t>(i)].position, body.pose.matrix = frame_.places[static_cast<std::size_t>(i)].rotation;
+      return body;
+    };
+    const int n = static_cast<int>(bodies.size());
+    if (frame_.pair[0] >= n || frame_.pair[1] >= n) return {};
+    return difference_mesh(at(frame_.pair[0]), at(frame_.pair[1]), meshes_.dimension);
+  }
+
+  /// Where a moving body was at the beginning, as an outline, and the way of its place.
+  void swept(int i) {
+    const Body& body = recording_.scene.scene.bodies[static_cast<std::size_t>(i)];
+    const Frame::Place& place = frame_.places[static_cast<std::size_t>(i)];
+    if (place.position == body.pose.position && place.rotation == body.pose.matrix) return;
+    const DisplayMesh& began = meshes_.bodies[static_cast<std::size_t>(i)];
+    for (const auto& edge : began.edges)
+      if (edge.crease || edge.face_b < 0)
+        picture_.line(began.points[static_cast<std::size_t>(edge.from)], began.points[static_cast<std::size_t>(edge.to)], body_colour(i).with_alpha(0.3), 1, Stroke::dashed);
+    std::vector<ViewPoint> way{to_view(body.pose.position)};
+    const std::size_t states = frame_.step;
+    for (std::size_t k = 0; k < states; ++k)
+      if (const auto* state = std::get_if<recorded::State>(&recording_.events[k]); state && static_cast<std::size_t>(i) < state->bodies.size())
+        way.push_back(to_view(state->bodies[static_cast<std::size_t>(i)].position));
+    way.push_back(to_view(place.position));
+    for (std::size_t k = 0; k + 1 < way.size(); ++k) picture_.line(way[k], way[k + 1], body_colour(i).with_alpha(0.6), 1.2);
+  }
+
+  void velocities() {
+    if (!moves()) return;
+    double fastest = 0;
+    for (const Frame::Place& place : frame_.places) fastest = std::max(fastest, place.velocity.norm());
+    if (!(fastest > 0)) return;
+    for (std::size_t i = 0; i < frame_.places.size(); ++i) {
+      const ViewPoint v = to_view(frame_.places[i].velocity);
+      if (!(v.norm() > 1e-9 * fastest)) continue;
+      const ViewPoint from = to_view(frame_.places[i].position), tip = from + v * (0.35 * unit() / fastest);
+      picture_.arrow(from, tip, palette_.support);
+      label(tip, "velocity", palette_.support);
+    }
+    if (const auto* e = std::get_if<recorded::ImpulseApplied>(&recording_.events[frame_.step])) impulse(*e);
+    if (const auto* e = std::get_if<recorded::ContactFound>(&recording_.events[frame_.step])) picture_.points.push_back({to_view(e->point), palette_.newest, 6, Mark::square, -1});
+  }
+
+  void impulse(const recorded::ImpulseApplied& e) {
+    const ViewPoint at = to_view(e.point), along = to_view(e.impulse);
+    picture_.points.push_back({at, palette_.newest, 5, Mark::square, -1});
+    if (along.isZero(0)) return;
+    picture_.arrow(at, at + along.stableNormalized() * unit() * 0.3, palette_.newest);
+    label(at + along.stableNormalized() * unit() * 0.3, "impulse", palette_.newest);
+  }
 
   /// Lines at round distances: in the plane of a 2D scene, or on the floor y = 0's level of a 3D one.
   void grid() {
@@ -428,8 +518,24 @@ Picture difference_picture(const SceneMeshes& meshes, const Recording& recording
 
 Camera fit_world(const SceneMeshes& meshes) {
   Bounds bounds;
-  for (const DisplayMesh* mesh : {&meshes.a, &meshes.b})
-    for (const ViewPoint& p : mesh->points) bounds.add(p);
+  for (const DisplayMesh& mesh : meshes.bodies)
+    for (const ViewPoint& p : mesh.points) bounds.add(p);
+  return bounds.camera(meshes.dimension);
+}
+
+Camera fit_world(const SceneMeshes& meshes, const Recording& recording) {
+  const Scene& scene = recording.scene.scene;
+  if (!scene.motion) return fit_world(meshes);
+  Bounds bounds;
+  const auto add = [&](std::size_t i, const AnyVector& position) {
+    const ViewPoint shift = to_view(AnyVector(position - scene.bodies[i].pose.position));
+    for (const ViewPoint& p : meshes.bodies[i].points) bounds.add(p), bounds.add(p + shift);
+  };
+  const double end = recording.result.intersecting ? recording.result.time.value_or(1) : 1;
+  for (std::size_t i = 0; i < meshes.bodies.size(); ++i) add(i, scene.query == Query::cast ? AnyVector(scene.bodies[i].pose.position + scene.bodies[i].motion->velocity * end) : scene.bodies[i].pose.position);
+  for (const Event& event : recording.events)
+    if (const auto* state = std::get_if<recorded::State>(&event))
+      for (std::size_t i = 0; i < state->bodies.size() && i < meshes.bodies.size(); ++i) add(i, state->bodies[i].position);
   return bounds.camera(meshes.dimension);
 }
 

@@ -24,7 +24,8 @@ struct ViewSettings {
 
 /// Display hulls of a scene: made once, drawn at every step.
 struct SceneMeshes {
-  DisplayMesh a, b, difference;
+  std::vector<DisplayMesh> bodies;
+  DisplayMesh difference;  ///< of the first two
   double radius = 0;  ///< the sum of the cores' radii
   int dimension = 3;
 };
@@ -37,6 +38,8 @@ Picture difference_picture(const SceneMeshes& meshes, const Recording& recording
 
 /// Cameras that show everything of a scene.
 Camera fit_world(const SceneMeshes& meshes);
+/// And of where its bodies go.
+Camera fit_world(const SceneMeshes& meshes, const Recording& recording);
 Camera fit_difference(const SceneMeshes& meshes, const Recording& recording);
 
 /// The letter a vertex goes by at a step: A for the newest of the simplex (or the oldest), then B, C, D; "" when it is not in it. At the

@@ -44,7 +44,7 @@ void App::compare(const std::filesystem::path& file) {
 
 void App::fit_views() {
   const Camera world = world_camera, difference = difference_camera;
-  world_camera = fit_world(session.meshes());
+  world_camera = fit_world(session.meshes(), session.recording());
   difference_camera = fit_difference(session.meshes(), session.recording());
   if (fitted_ == 0) return;
   world_camera.yaw = world.yaw, world_camera.pitch = world.pitch;

@@ -19,10 +19,15 @@ std::string_view word_of(GjkStatus s) { return gjk_status_names[static_cast<std:
 std::string_view word_of(EpaStatus s) { return epa_status_names[static_cast<std::size_t>(s)]; }
 std::string_view word_of(MprStatus s) { return mpr_status_names[static_cast<std::size_t>(s)]; }
 std::string_view word_of(SatStatus s) { return sat_status_names[static_cast<std::size_t>(s)]; }
+std::string_view word_of(CastStatus s) { return cast_status_names[static_cast<std::size_t>(s)]; }
 std::string_view word_of(AxisSource s) { return axis_source_names[static_cast<std::size_t>(s)]; }
 
 std::optional<Value> part_of(double x, std::string_view part) { return part.empty() ? std::optional<Value>(x) : std::nullopt; }
 std::optional<Value> part_of(int x, std::string_view part) { return part_of(static_cast<double>(x), part); }
+std::optional<Value> part_of(const Edge& e, std::string_view part) {
+  if (part == "first" || part == "second") return static_cast<double>(e[part == "second"]);
+  return part.empty() || part == "size" ? std::optional<Value>(2.0) : std::nullopt;
+}
 std::optional<Value> part_of(const std::string& x, std::string_view part) { return part.empty() ? std::optional<Value>(x) : std::nullopt; }
 std::optional<Value> part_of(const AnyVector& v, std::string_view part) {
   if (part.empty() || part == "norm") return v.norm();

@@ -209,6 +209,51 @@ struct Explain {
     return {title, "No axis separates, so the bodies overlap; the least overlap of all axes, " + short_number(-e.distance) + " along " + short_vector(e.normal) + ", is the depth, exactly."};
   }
 
+  std::string body(int i) const {
+    const std::string& name = recording.scene.scene.bodies[std::min(static_cast<std::size_t>(i), recording.scene.scene.bodies.size() - 1)].name;
+    return name.empty() ? "body " + std::to_string(i) : name;
+  }
+
+  Explanation operator()(const recorded::CastBegan& e) const {
+    return {"The cast begins", std::to_string(e.pairs.size()) + (e.pairs.size() == 1 ? " pair of bodies moves" : " pairs of bodies move") + " against each other. When do they meet for the first time?"};
+  }
+
+  Explanation operator()(const recorded::CastAdvanced& e) const {
+    const std::string at = "At time " + short_number(e.time) + " " + body(e.pair[0]) + " and " + body(e.pair[1]) + " are " + short_number(e.distance) + " apart along " + short_vector(e.normal) + ". ";
+    if (e.bound <= 0) return {"This pair recedes", at + "Along this normal they do not come nearer any more, so it separates them for good: the pair is left out."};
+    return {"Surely apart for a while", at + "They come nearer by at most " + short_number(e.bound) + " per unit of time, so until " + short_number(e.time + std::max(0.0, e.distance) / e.bound) + " they cannot meet."};
+  }
+
+  Explanation operator()(const recorded::CastEnded& e) const {
+    const std::string title = "The cast ends: " + std::string(cast_status_names[static_cast<std::size_t>(e.status)]);
+    const std::string who = e.pair.size() == 2 ? body(e.pair[0]) + " and " + body(e.pair[1]) : "";
+    switch (e.status) {
+      case CastStatus::hit: return {title, "At time " + short_number(e.time) + " " + who + " are within the tolerance of each other and still approaching: this is the time of impact, early by no more than that."};
+      case CastStatus::miss: return {title, "No pair meets before the interval ends."};
+      case CastStatus::initially_overlapping: return {title, who + " overlap at the beginning: there is no first time to look for."};
+      case CastStatus::at_rest: return {title, "Nothing moves any more."};
+      case CastStatus::iteration_limit: return {title, "Until time " + short_number(e.time) + " all are surely apart; no more is known within the limit."};
+    }
+    return {title, {}};
+  }
+
+  Explanation operator()(const recorded::State& e) const {
+    std::string text = "Where the bodies are at time " + short_number(e.time);
+    if (recording.scene.scene.query == Query::simulate) text += ". Energy " + short_number(e.energy) + ", momentum " + short_vector(e.momentum);
+    return {"State at " + short_number(e.time), text + "."};
+  }
+
+  Explanation operator()(const recorded::ContactFound& e) const {
+    return {"A contact", body(e.pair[0]) + " and " + body(e.pair[1]) + " touch at " + short_vector(e.point) + ", " + short_number(e.depth) + " deep along " + short_vector(e.normal) + "."};
+  }
+
+  Explanation operator()(const recorded::ImpulseApplied& e) const {
+    std::string text = body(e.pair[1]) + " gets the impulse " + short_vector(e.impulse) + " at " + short_vector(e.point) + ", " + body(e.pair[0]) + " the opposite.";
+    if (e.velocities_before.size() == 2 && e.velocities_after.size() == 2)
+      text += " Velocities: " + short_vector(e.velocities_before[0]) + " to " + short_vector(e.velocities_after[0]) + " and " + short_vector(e.velocities_before[1]) + " to " + short_vector(e.velocities_after[1]) + ".";
+    return {recording.scene.scene.query == Query::cast ? "The motion responds" : "An impulse", text};
+  }
+
   Explanation operator()(const recorded::Warning& e) const { return {"Warning: " + e.code, e.message}; }
 };
 
@@ -235,6 +280,12 @@ struct Summarise {
   std::string operator()(const recorded::SatEnded& e) const {
     return std::string(sat_status_names[static_cast<std::size_t>(e.status)]) + "  " + short_number(e.distance);
   }
+  std::string operator()(const recorded::CastBegan& e) const { return std::to_string(e.pairs.size()) + " pairs"; }
+  std::string operator()(const recorded::CastAdvanced& e) const { return "t = " + short_number(e.time) + "  d = " + short_number(e.distance); }
+  std::string operator()(const recorded::CastEnded& e) const { return std::string(cast_status_names[static_cast<std::size_t>(e.status)]) + "  t = " + short_number(e.time); }
+  std::string operator()(const recorded::State& e) const { return "t = " + short_number(e.time); }
+  std::string operator()(const recorded::ContactFound& e) const { return std::to_string(e.pair[0]) + "-" + std::to_string(e.pair[1]) + "  depth " + short_number(e.depth); }
+  std::string operator()(const recorded::ImpulseApplied& e) const { return std::to_string(e.pair[0]) + "-" + std::to_string(e.pair[1]) + "  " + short_number(e.impulse.norm()); }
   std::string operator()(const recorded::Warning& e) const { return e.code; }
 };
 
@@ -260,6 +311,25 @@ bool frame_before_portal(const Recording& recording, std::size_t step) {
 PseudoCode pseudo_code(const Recording& recording, std::size_t step) {
   const Event& event = recording.events[step];
   const auto* query = std::get_if<recorded::SupportQueried>(&event);
+  if (std::holds_alternative<recorded::CastBegan>(event) || std::holds_alternative<recorded::CastAdvanced>(event) || std::holds_alternative<recorded::CastEnded>(event)) {
+    PseudoCode code;
+    if (recording.settings.name == MethodName::ray_cast) code = {"Ray cast", {"x = 0;  v = x - support(r)", "while |v| > tolerance", "  p = support(v)", "  if x beyond the plane at p:", "    if v.r >= 0: miss", "    x = where the ray meets it", "  v = x - point of P nearest x", "hit at x"}, -1};
+    else code = {recording.settings.name == MethodName::root_finding ? "Root finding" : "Conservative advancement", {"t = 0", "repeat", "  d, n = GJK(A at t, B at t)", "  if d within tolerance: hit", "  bound = closing speed along n", "  if bound <= 0: miss", recording.settings.name == MethodName::root_finding ? "  t = where the gap along n closes" : "  t = t + d / bound"}, -1};
+    const bool ray = recording.settings.name == MethodName::ray_cast;
+    if (std::holds_alternative<recorded::CastBegan>(event)) code.current = 0;
+    else if (std::holds_alternative<recorded::CastAdvanced>(event)) code.current = ray ? 5 : 6;
+    else code.current = ray ? (std::get<recorded::CastEnded>(event).status == CastStatus::miss ? 4 : 7) : std::get<recorded::CastEnded>(event).status == CastStatus::miss ? 5 : 3;
+    return code;
+  }
+  if (std::holds_alternative<recorded::State>(event) || std::holds_alternative<recorded::ContactFound>(event) || std::holds_alternative<recorded::ImpulseApplied>(event)) {
+    PseudoCode code{"Rigid bodies", {"repeat", "  P += m g h", "  contacts: GJK, EPA for near pairs", "  impulses until none approaches", "  x, R move on by h", "  what overlaps is moved apart"}, -1};
+    if (recording.scene.scene.query == Query::cast) code = {"Response", {"move to the time of impact", "take off the velocity into the wall", "go on with what is left"}, -1};
+    const bool moving = recording.scene.scene.query == Query::cast;
+    if (std::holds_alternative<recorded::State>(event)) code.current = moving ? 2 : 0;
+    else if (std::holds_alternative<recorded::ContactFound>(event)) code.current = 2;
+    else code.current = moving ? 1 : 3;
+    return code;
+  }
   if (std::holds_alternative<recorded::MprBegan>(event) || std::holds_alternative<recorded::PortalFound>(event) || std::holds_alternative<recorded::MprEnded>(event) ||
       (query && query->phase == Phase::mpr)) {
     PseudoCode code{"MPR", {"v0 = a point inside A - B", "find a portal the ray v0 O passes", "repeat", "  n = normal of the portal", "  if O on v0's side: overlap", "  w = support(n)", "  if w short of O: apart", "  if w not beyond: depth = n.w", "  portal = the part with w that the ray passes"}, -1};

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "algo/motion.h"
 #include "debugger/view/app.h"
 
 namespace gjkdbg {
@@ -128,7 +129,7 @@ bool body(const Theme& theme, Body& b, int index, int dimension, double size) {
   const auto speed = static_cast<float>(size * 0.005);
   ImGui::Dummy({0, theme.px(4)});
   ImGui::AlignTextToFramePadding();
-  ImGui::TextColored(vec(index == 0 ? theme.palette.body_a : theme.palette.body_b), "%s", index == 0 ? "A" : "B");
+  ImGui::TextColored(vec(index == 0 ? theme.palette.body_a : index == 1 ? theme.palette.body_b : theme.palette.text_soft), "%s", index < 26 ? std::string(1, static_cast<char>('A' + index)).c_str() : "");
   if (!b.name.empty() && b.name != "A" && b.name != "B" && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", b.name.c_str());
   ImGui::SameLine(theme.px(100));
   bool edited = choose_type(b.shape, dimension, size);
@@ -136,6 +137,13 @@ bool body(const Theme& theme, Body& b, int index, int dimension, double size) {
   edited |= numbers(theme, "margin", &b.shape.margin, 1, speed, &zero);
   edited |= numbers(theme, "position", b.pose.position.data(), dimension, speed);
   edited |= rotation(theme, b.pose, dimension);
+  if (b.motion) {
+    edited |= numbers(theme, "velocity", b.motion->velocity.data(), dimension, speed);
+    if (b.motion->angular_velocity.size() > 0) {
+      AnyVector turn = b.motion->angular_velocity * degrees;
+      if (numbers(theme, "turns by", turn.data(), static_cast<int>(turn.size()), 1)) b.motion->angular_velocity = turn / degrees, edited = true;
+    }
+  }
   ImGui::PopID();
   return edited;
 }
@@ -163,11 +171,11 @@ bool method(App& app, SceneFile& next) {
   section(theme, "METHOD");
   bool edited = false;
   int query = static_cast<int>(next.scene.query), name = static_cast<int>(now.name), scalar = static_cast<int>(now.scalar);
-  if (choice(theme, "query", query, query_names, {0, 1, 2, 3})) {
+  if ((next.scene.motion ? choice(theme, "query", query, query_names, {query}) : choice(theme, "query", query, query_names, {0, 1, 2, 3}))) {
     next.scene.query = static_cast<Query>(query), edited = true;
     if (query != 0 && now.name == MethodName::gjk_boolean) next.method.name = MethodName::gjk;
   }
-  if (choice(theme, "method", name, method_names, query == 0 ? std::vector<int>{0, 1, 2, 3, 4} : std::vector<int>{0, 2, 3, 4})) next.method.name = static_cast<MethodName>(name), edited = true;
+  if (choice(theme, "method", name, method_names, query == 4 ? std::vector<int>{5, 6, 7} : query == 0 ? std::vector<int>{0, 1, 2, 3, 4} : std::vector<int>{0, 2, 3, 4})) next.method.name = static_cast<MethodName>(name), edited = true;
   int part = static_cast<int>(now.closest_point);
   if (now.name != MethodName::gjk_boolean && choice(theme, "closest point", part, closest_point_names, {0, 1, 2})) next.method.closest_point = static_cast<ClosestPoint>(part), edited = true;
   int momentum = static_cast<int>(now.acceleration), rule = static_cast<int>(now.stopping), deep = static_cast<int>(now.penetration);
@@ -195,6 +203,16 @@ bool method(App& app, SceneFile& next) {
 }  // namespace
 
 namespace {
+
+/// Moving scenes take any number of bodies.
+bool add_body(SceneFile& next) {
+  if (next.scene.bodies.size() >= 12 || !ImGui::SmallButton("add a body")) return false;
+  Body body = next.scene.bodies.back();
+  body.name.clear();
+  body.pose.position[0] += 2 * std::max(1e-9, reach_of(body.shape, next.scene.dimension));
+  next.scene.bodies.push_back(body);
+  return true;
+}
 
 /// Another run beside this one: the same scene by another method, or a recording.
 void comparison(App& app) {
@@ -279,7 +297,9 @@ void scene_panel(App& app) {
   const bool was_active = ImGui::IsAnyItemActive();
   bool edited = false;
   const double size = std::max(1e-300, std::min(app.world_camera.radius, 1e12));
-  for (int i = 0; i < 2; ++i) edited |= body(theme, next.scene.bodies[static_cast<std::size_t>(i)], i, next.scene.dimension, size);
+  const int bodies = static_cast<int>(std::min<std::size_t>(next.scene.bodies.size(), 12));
+  for (int i = 0; i < bodies; ++i) edited |= body(theme, next.scene.bodies[static_cast<std::size_t>(i)], i, next.scene.dimension, size);
+  if (next.scene.motion) edited |= add_body(next);
   edited |= method(app, next);
   if (edited) {
     next.expect.reset();  // of the scene as it was

@@ -226,7 +226,7 @@ void bounds_plot(App& app, float width, float height) {
   if (samples.empty() && others.empty()) return;
   const Settings& settings = s.recording().settings;
   const double size = std::abs(s.recording().result.signed_distance.value_or(0));
-  const double floor = 2 * rounding_floor(s.scene().scene, settings), tolerance = std::max(settings.tolerance * size, 0.0);
+  const double floor = s.scene().scene.bodies.size() < 2 ? 0 : 2 * rounding_floor(s.scene().scene, settings), tolerance = std::max(settings.tolerance * size, 0.0);
   double low = floor, high = floor;
   for (const auto* list : {&samples, &others})
     for (const Sample& x : *list) low = std::min(low, x.gap), high = std::max(high, x.gap);

@@ -66,7 +66,7 @@ struct Handle {
 Handle handle_of(const App& app, int body, const Projection& projection) {
   const SceneMeshes& meshes = app.session.meshes();
   const float r = app.theme.px(9);
-  const ImVec2 c = at(projection(middle(body == 0 ? meshes.a : meshes.b)));
+  const ImVec2 c = at(projection(middle(meshes.bodies[static_cast<std::size_t>(body)])));
   return {c, {c.x + r * 1.9f, c.y - r * 1.5f}, r};
 }
 
@@ -87,16 +87,18 @@ void turn(Body& body, const ViewPoint& axis, double angle, int dimension) {
 void body_handles(App& app, const Projection& projection, ImDrawList* draw, Held& held) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const int dimension = app.session.scene().scene.dimension;
-  for (int i = 0; i < 2; ++i) {
+  const bool two = app.session.meshes().bodies.size() == 2;
+  for (int i = 0; i < static_cast<int>(app.session.meshes().bodies.size()); ++i) {
     const Handle h = handle_of(app, i, projection);
-    const Colour colour = i == 0 ? app.theme.palette.body_a : app.theme.palette.body_b;
+    const Colour colour = i == 0 ? app.theme.palette.body_a : i == 1 ? app.theme.palette.body_b : app.theme.palette.text_soft;
+    const std::string letter = two ? i == 0 ? "A" : "B" : std::to_string(i);
     const bool near = ImGui::IsItemHovered() && distance(mouse, h.centre) < h.radius + app.theme.px(3);
     const bool near_disc = ImGui::IsItemHovered() && dimension > 1 && !near && distance(mouse, h.disc) < app.theme.px(7);
     draw->AddCircle(h.centre, h.radius, packed(colour.with_alpha(near || (held.body == i && !held.turning) ? 1 : 0.55)), 24, app.theme.px(2));
     if (dimension > 1) draw->AddCircleFilled(h.disc, app.theme.px(3.5f), packed(colour.with_alpha(near_disc || (held.body == i && held.turning) ? 1 : 0.6)), 16);
-    draw->AddText(app.theme.small, app.theme.small->FontSize, {h.centre.x - app.theme.px(4), h.centre.y - app.theme.px(7)}, packed(colour), i == 0 ? "A" : "B");
-    if (near) ImGui::SetTooltip("drag: move %s", i == 0 ? "A" : "B");
-    if (near_disc) ImGui::SetTooltip("drag: turn %s", i == 0 ? "A" : "B");
+    draw->AddText(app.theme.small, app.theme.small->FontSize, {h.centre.x - app.theme.px(4), h.centre.y - app.theme.px(7)}, packed(colour), letter.c_str());
+    if (near) ImGui::SetTooltip("drag: move %s", letter.c_str());
+    if (near_disc) ImGui::SetTooltip("drag: turn %s", letter.c_str());
     if ((near || near_disc) && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) held = {i, near_disc}, app.session.begin_edit();
   }
   if (held.body < 0) return;
@@ -151,7 +153,7 @@ void interact(App& app, const Area& area, const Shown& shown, Camera& camera, co
   const Theme& theme = app.theme;
   ImGui::SetCursorScreenPos({area.x, area.y});
   ImGui::InvisibleButton("canvas", {area.width, area.height}, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
-  const bool movable = shown.world && !shown.other;
+  const bool movable = shown.world && !shown.other && (app.session.frame().places.empty() || app.session.step() == 0);
   if (movable) body_handles(app, projection, ImGui::GetWindowDrawList(), held);
   if (!(movable && held.body >= 0)) steer(camera, projection), link_cameras(app, shown.world);
   if (!ImGui::IsItemHovered()) return;

@@ -28,7 +28,7 @@ void Thumbnails::draw(const Gallery& gallery, const std::string& scene, const Th
   const Thumbnail& t = found->second;
   if (t.broken) return;
   const ViewRectangle rectangle{from.x, from.y, to.x - from.x, to.y - from.y};
-  Camera camera = fit_world(t.meshes);
+  Camera camera = fit_world(t.meshes, t.recording);
   const Projection projection(camera, rectangle);
   ViewSettings settings;
   settings.grid = settings.labels = false;

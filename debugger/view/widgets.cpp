@@ -80,13 +80,19 @@ Colour event_colour(const Palette& p, const Event& event) {
     Colour operator()(const recorded::SatBegan&) const { return p.text; }
     Colour operator()(const recorded::AxisTested&) const { return p.chosen; }
     Colour operator()(const recorded::SatEnded&) const { return p.text; }
+    Colour operator()(const recorded::CastBegan&) const { return p.text; }
+    Colour operator()(const recorded::CastAdvanced&) const { return p.accent; }
+    Colour operator()(const recorded::CastEnded&) const { return p.text; }
+    Colour operator()(const recorded::State&) const { return p.accent; }
+    Colour operator()(const recorded::ContactFound&) const { return p.newest; }
+    Colour operator()(const recorded::ImpulseApplied&) const { return p.body_b; }
     Colour operator()(const recorded::Warning&) const { return p.newest; }
   } colours{p};
   return std::visit(colours, event);
 }
 
 const char* short_kind(const Event& event) {
-  static const char* const names[] = {"begin", "support", "simplex", "end", "polytope", "face", "grow", "end", "begin", "portal", "end", "begin", "axis", "end", "warning"};
+  static const char* const names[] = {"begin", "support", "simplex", "end", "polytope", "face", "grow", "end", "begin", "portal", "end", "begin", "axis", "end", "begin", "advance", "end", "state", "contact", "impulse", "warning"};
   static_assert(std::size(names) == std::variant_size_v<Event>);
   return names[event.index()];
 }
@@ -115,6 +121,8 @@ std::optional<std::size_t> find_text(const Session& session, const std::string& 
 
 std::string result_text(const Recording& recording) {
   const Result& r = recording.result;
+  if (recording.scene.scene.query == Query::simulate) return "time " + short_number(r.time.value_or(0)) + ", energy " + short_number(r.energy.value_or(0));
+  if (recording.scene.scene.query == Query::cast) return r.intersecting ? r.status == "hit" ? "hit at " + short_number(*r.time) : "overlapping at first" : r.status == "miss" ? "miss" : r.status;
   std::string text = r.intersecting ? "overlapping" : "apart";
   if (r.signed_distance) {
     const double d = *r.signed_distance;

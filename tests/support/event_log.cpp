@@ -44,6 +44,12 @@ struct Line {
   void operator()(const recorded::SatEnded& e) {
     out << "sat ended " << sat_status_names[static_cast<std::size_t>(e.status)] << ": " << e.distance << " along", vector(e.normal);
   }
+  void operator()(const recorded::CastBegan& e) { out << "cast began: " << e.pairs.size() << " pairs"; }
+  void operator()(const recorded::CastAdvanced& e) { out << "at " << e.time << " pair " << e.pair[0] << " " << e.pair[1] << " is " << e.distance << " apart"; }
+  void operator()(const recorded::CastEnded& e) { out << "cast ended " << cast_status_names[static_cast<std::size_t>(e.status)] << " at " << e.time; }
+  void operator()(const recorded::State& e) { out << "state at " << e.time << ": energy " << e.energy; }
+  void operator()(const recorded::ContactFound& e) { out << "contact " << e.pair[0] << " " << e.pair[1] << " at", vector(e.point); }
+  void operator()(const recorded::ImpulseApplied& e) { out << "impulse " << e.pair[0] << " " << e.pair[1] << ":", vector(e.impulse); }
   void operator()(const recorded::Warning& e) { out << "warning " << e.code; }
 };
 

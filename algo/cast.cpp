@@ -1,0 +1,383 @@
+#include "algo/cast.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "algo/motion.h"
+#include "algo/ray_cast.h"
+#include "shapes/world_support.h"
+
+namespace gjkdbg {
+namespace {
+
+constexpr int most_responses = 64;
+
+/// A pair that still may meet.
+struct Pair {
+  int first, second;
+  bool open = true;
+};
+
+/// What is known of a pair at a time.
+struct Gap {
+  double distance = 0;
+  AnyVector normal, witness_a, witness_b;
+  double bound = 0;  ///< how fast it closes at most
+};
+
+struct Meeting {
+  CastStatus status = CastStatus::miss;
+  double time = 0;  ///< since the beginning of the stretch
+  int first = -1, second = -1;
+  Gap gap;
+};
+
+class Caster {
+ public:
+  Caster(const Scene& scene, const Settings& settings, TraceSink* trace)
+      : scene_(scene), settings_(settings), inner_(static_settings(settings)), trace_(trace), dimension_(scene.dimension), bodies_(scene.bodies) {
+    for (const Body& body : bodies_) reach_.push_back(reach_of(body.shape, dimension_));
+    double size = 0;
+    for (const double r : reach_) size = std::max(size, r);
+    for (const Body& body : bodies_) size = std::max(size, (body.pose.position - bodies_[0].pose.position).norm());
+    target_ = std::max(settings.tolerance, 4e-15) * std::max(size, 1e-300);
+  }
+
+  Result run() {
+    find_pairs();
+    Meeting first = advance(0);
+    note(first);
+    const Response response = scene_.motion ? scene_.motion->response : Response::stop;
+    if (first.status == CastStatus::hit && response != Response::stop) respond(first, response);
+    ended(last_);
+    return result();
+  }
+
+ private:
+  // --- The stretch until the next meeting -----------------------------------------------------------------------------
+
+  void find_pairs() {
+    pairs_.clear();
+    const int n = static_cast<int>(bodies_.size());
+    for (int i = 0; i < n; ++i)
+      for (int j = i + 1; j < n; ++j)
+        if (moves_against(i, j)) pairs_.push_back({i, j});
+    if (!trace_) return;
+    std::vector<Edge> edges;
+    for (const Pair& p : pairs_) edges.push_back({p.first, p.second});
+    (*trace_)(world::CastBegan{edges});
+  }
+
+  const AnyVector& velocity(int i) const { return bodies_[static_cast<std::size_t>(i)].motion->velocity; }
+  const AnyVector& spin(int i) const { return bodies_[static_cast<std::size_t>(i)].motion->angular_velocity; }
+  bool turns(int i) const { return spin(i).size() > 0 && !spin(i).isZero(0); }
+  bool moves_against(int i, int j) const { return turns(i) || turns(j) || velocity(i) != velocity(j); }
+
+  /// From the bodies' places at `start` (of the whole interval) until two of them meet or the interval ends.
+  Meeting advance(double start) {
+    start_ = start;
+    if (settings_.name == MethodName::ray_cast) return by_rays();
+    Meeting meeting;
+    for (Pair& p : pairs_) p.open = true;
+    double time = 0;
+    while (iterations_ < settings_.max_iterations) {
+      ++iterations_;
+      double next = 1 - start;
+      const Pair* nearest = nullptr;
+      for (Pair& p : pairs_) {
+        if (!p.open) continue;
+        const Gap gap = gap_of(p, time);
+        if (gap.distance <= target_) {
+          // A pair that only slides along another does not meet it.
+          if (gap.bound <= sliding_ * speed(p) && (gap.distance > 0 || start_ > 0)) {
+            p.open = false;
+            continue;
+          }
+          meeting = {gap.distance <= 0 && time == 0 && start == 0 ? CastStatus::initially_overlapping : CastStatus::hit, time, p.first, p.second, gap};
+          return meeting;
+        }
+        if (gap.bound <= sliding_ * speed(p)) {
+          p.open = false;  // receding: this normal separates them for good, whichever way they turn
+          continue;
+        }
+        const double safe = time + (settings_.name == MethodName::root_finding ? root(p, time, gap) : (gap.distance - target_ / 2) / gap.bound);
+        if (safe < next) next = safe, nearest = &p;
+      }
+      if (!nearest || !(next > time)) {
+        if (nearest) return {CastStatus::hit, time, nearest->first, nearest->second, gap_of(*nearest, time)};  // time no longer advances: rounding
+        meeting.status = CastStatus::miss, meeting.time = 1 - start;
+        return meeting;
+      }
+      time = next;
+    }
+    return {CastStatus::iteration_limit, time, -1, -1, {}};
+  }
+
+  double speed(const Pair& p) const {
+    double s = velocity(p.first).norm() + velocity(p.second).norm();
+    for (const int i : {p.first, p.second})
+      if (turns(i)) s += spin(i).norm() * reach_[static_cast<std::size_t>(i)];
+    return s;
+  }
+
+  Scene pair_at(const Pair& p, double time) const {
+    Scene two;
+    two.dimension = dimension_;
+    two.query = Query::penetration;
+    for (const int i : {p.first, p.second}) {
+      two.bodies.push_back(moved(bodies_[static_cast<std::size_t>(i)], time, dimension_));
+      two.bodies.back().motion.reset();
+    }
+    return two;
+  }
+
+  /// GJK at a time, in the trace, and how fast the gap closes at most.
+  Gap gap_of(const Pair& p, double time) {
+    const Result r = solve_static(pair_at(p, time), inner_, trace_, numbers_);
+    numbers_.next_run();
+    supports_ += r.support_calls;
+    Gap gap{*r.signed_distance, *r.normal, *r.witness_a, *r.witness_b, 0};
+    gap.bound = closing(p, gap.normal);
+    if (trace_) (*trace_)(world::CastAdvanced{iterations_, start_ + time, {p.first, p.second}, gap.distance, gap.normal, gap.bound});
+    return gap;
+  }
+
+  double closing(const Pair& p, const AnyVector& n) const {
+    return (velocity(p.first) - velocity(p.second)).dot(n) + sideways(p.first, n) + sideways(p.second, n);
+  }
+
+  /// |w x n| times the reach; in the plane w is across n.
+  double sideways(int i, const AnyVector& n) const {
+    if (!turns(i)) return 0;
+    const double reach = reach_[static_cast<std::size_t>(i)];
+    if (dimension_ == 2) return std::abs(spin(i)[0]) * reach;
+    const Eigen::Vector3d w = spin(i), n3 = n;
+    return w.cross(n3).norm() * reach;
+  }
+
+  /// Root finding: the time from now until the gap along this normal closes to within the target; supports alone, no GJK.
+  double root(const Pair& p, double time, const Gap& gap) {
+    if (!turns(p.first) && !turns(p.second)) return (gap.distance - target_ / 2) / gap.bound;  // the gap along n falls evenly
+    double ahead = 0, distance = gap.distance;
+    for (int i = 0; i < 256 && start_ + time + ahead < 1; ++i) {
+      ahead += (distance - target_ / 4) / gap.bound;
+      const Scene two = pair_at(p, time + ahead);
+      const WorldSupport a(two.bodies[0], dimension_), b(two.bodies[1], dimension_);
+      supports_ += 2;
+      distance = gap.normal.dot(b(-gap.normal, true) - a(gap.normal, true));
+      if (distance <= target_ / 2) break;
+    }
+    return ahead;
+  }
+
+  // --- Rays ----------------------------------------------------------------------------------------------------------------
+
+  Meeting by_rays() {
+    Meeting best;
+    best.time = 1 - start_;
+    for (const Pair& p : pairs_) {
+      Meeting m = dimension_ == 1 ? ray<1>(p) : dimension_ == 2 ? ray<2>(p) : ray<3>(p);
+      if (m.status == CastStatus::miss || m.time > best.time) continue;
+      if (m.status == CastStatus::hit && m.time <= 0 && m.gap.bound <= sliding_ * speed(p)) continue;
+      if (best.status == CastStatus::miss || m.time < best.time) best = m;
+    }
+    return best;
+  }
+
+  template <int D>
+  Meeting ray(const Pair& p) {
+    return settings_.scalar == Scalar::float_precision ? ray<D, float>(p) : ray<D, double>(p);
+  }
+
+  template <int D, class S>
+  Meeting ray(const Pair& p) {
+    const Scene two = pair_at(p, 0);
+    const Body &body_a = two.bodies[0], &body_b = two.bodies[1];
+    const Convex<D, S> a(body_a.shape), b(body_b.shape);
+    using Difference = MinkowskiDifference<D, S, Convex<D, S>>;
+    Difference cores(a, b, relative_pose<D, S>(body_a.pose, a.reference(), body_b.pose, b.reference(), 1));
+    InflatedDifference<Difference> difference(cores);
+    const WorkingFrame<D, S> frame(body_a.pose, a.reference(), 1);
+    const Vector<D, double> relative = velocity(p.second) - velocity(p.first);
+    // The ray is -t (vA - vB), seen from body 0.
+    const Vector<D, S> along = (frame.rotation.transpose() * Vector<D, double>(relative * (1 - start_))).template cast<S>();
+    const S reach = std::max(static_cast<S>(target_), S(2) * difference.rounding_floor());
+    RayCastResult<D, S> found;
+    if (trace_) {
+      WorldTrace<D, S> trace(frame, numbers_, *trace_);
+      found = ray_cast(difference, along, reach, settings_.max_iterations, {p.first, p.second}, trace);
+      numbers_.next_run();
+    } else {
+      NoTrace silent;
+      found = ray_cast(difference, along, reach, settings_.max_iterations, {p.first, p.second}, silent);
+    }
+    iterations_ += found.iterations;
+    supports_ += cores.support_calls();
+    Meeting m;
+    m.status = found.status;
+    if (found.status == CastStatus::initially_overlapping && start_ > 0) m.status = CastStatus::hit;
+    m.time = static_cast<double>(found.time) * (1 - start_);
+    m.first = p.first, m.second = p.second;
+    if (m.status == CastStatus::miss) return m;
+    // The places and the normal at that time, by GJK: the ray's own are as exact as its last plane.
+    const Result r = solve_static(pair_at(p, m.time), inner_, nullptr, numbers_);
+    m.gap = {*r.signed_distance, *r.normal, *r.witness_a, *r.witness_b, 0};
+    m.gap.bound = closing(p, m.gap.normal);
+    return m;
+  }
+
+  // --- What becomes of the motion --------------------------------------------------------------------------------------------
+
+  void respond(const Meeting& first, Response response) {
+    Meeting meeting = first;
+    double now = 0;
+    struct Wall {
+      int body;
+      AnyVector normal;  ///< into the wall
+    };
+    std::vector<Wall> walls;
+    for (int k = 0; k < most_responses; ++k) {
+      if (meeting.time > 0) walls.clear();
+      for (Body& body : bodies_) body = moved(body, meeting.time, dimension_);
+      now += meeting.time;
+      const AnyVector& n = meeting.gap.normal;
+      const Motion &a = *bodies_[static_cast<std::size_t>(meeting.first)].motion, &b = *bodies_[static_cast<std::size_t>(meeting.second)].motion;
+      const bool moves_a = !a.velocity.isZero(0), moves_b = !b.velocity.isZero(0);
+      const double approach = (a.velocity - b.velocity).dot(n), e = response == Response::bounce ? std::max(a.restitution, b.restitution) : 0;
+      const double change = (1 + e) * std::max(0.0, approach), share = moves_a && moves_b ? 0.5 : 1;
+      const std::vector<AnyVector> before{a.velocity, b.velocity};
+      if (moves_a) turn_off(meeting.first, n, change * share, walls, response);
+      if (moves_b) turn_off(meeting.second, -n, change * share, walls, response);
+      emit_response(now, meeting, before);
+      if (at_rest()) {
+        last_ = meeting, last_.status = CastStatus::at_rest, last_.time = now;
+        return;
+      }
+      find_pairs();
+      meeting = advance(now);
+      last_ = meeting, last_.time = now + meeting.time;
+      if (meeting.status != CastStatus::hit) break;
+    }
+    for (Body& body : bodies_) body = moved(body, meeting.time, dimension_);
+  }
+
+  bool at_rest() const {
+    return std::all_of(bodies_.begin(), bodies_.end(), [&](const Body& body) { return body.motion->velocity.norm() <= 1e-12 * scene_speed(); });
+  }
+
+  double scene_speed() const {
+    double s = 0;
+    for (const Body& body : scene_.bodies) s = std::max(s, body.motion->velocity.norm());
+    return s;
+  }
+
+  /// Takes `change` of the velocity along n (into the wall) off. Caught by two walls at once, the body keeps what leads along both, if anything.
+  template <class Walls>
+  void turn_off(int i, const AnyVector& n, double change, Walls& walls, Response response) {
+    Motion& m = *bodies_[static_cast<std::size_t>(i)].motion;
+    m.velocity -= change * n;
+    if (response == Response::slide) {
+      for (const auto& wall : walls) {
+        if (wall.body != i || !(m.velocity.dot(wall.normal) > 0)) continue;
+        if (dimension_ == 3) {
+          const Eigen::Vector3d crease = Eigen::Vector3d(n).cross(Eigen::Vector3d(wall.normal)).stableNormalized(), v = m.velocity;
+          m.velocity = crease * crease.dot(v);
+        } else {
+          m.velocity.setZero();
+        }
+      }
+    }
+    walls.push_back({i, n});
+  }
+
+  void emit_response(double now, const Meeting& m, const std::vector<AnyVector>& before) {
+    responded_ = true;
+    if (!trace_) return;
+    const std::vector<AnyVector> after{velocity(m.first), velocity(m.second)};
+    (*trace_)(world::ImpulseApplied{now, {m.first, m.second}, m.gap.witness_a, m.gap.normal, AnyVector(after[1] - before[1]), before, after});
+    state(now);
+  }
+
+  void state(double now) {
+    std::vector<FinalState> kept = states();
+    std::vector<world::BodyState> views;
+    for (const FinalState& s : kept) views.push_back({s.position, s.orientation, s.velocity, s.angular_velocity});
+    (*trace_)(world::State{now, views, 0, AnyVector::Zero(dimension_)});
+  }
+
+  std::vector<FinalState> states() const {
+    std::vector<FinalState> list;
+    for (const Body& b : bodies_)
+      list.push_back({b.pose.position, orientation_of(b.pose.matrix), b.motion->velocity, {b.motion->angular_velocity.begin(), b.motion->angular_velocity.end()}});
+    return list;
+  }
+
+  // --- The answer --------------------------------------------------------------------------------------------------------------
+
+  /// The first meeting is the answer; what follows are responses.
+  void note(const Meeting& meeting) {
+    first_ = last_ = meeting;
+    if (meeting.status == CastStatus::hit || meeting.status == CastStatus::initially_overlapping) touching_at_ = surely_touching(meeting);
+  }
+
+  /// A time at which the pair certainly touches: a little later, and if that is too little, a little more.
+  std::optional<double> surely_touching(const Meeting& m) {
+    const Pair p{m.first, m.second};
+    if (m.gap.distance <= 0) return m.time;
+    Settings yes_no = inner_;
+    double step = std::max(2 * m.gap.distance / std::max(m.gap.bound, 1e-300), 4e-16);
+    for (int k = 0; k < 60 && m.time + step <= 1; ++k, step *= 2) {
+      Scene two = pair_at(p, m.time + step);
+      TraceNumbers unused;
+      if (*solve_static(two, yes_no, nullptr, unused).signed_distance <= 0) return m.time + step;
+    }
+    return std::nullopt;
+  }
+
+  void ended(const Meeting& m) {
+    if (!trace_) return;
+    std::vector<int> pair;
+    if (m.first >= 0 && m.status != CastStatus::miss) pair = {m.first, m.second};
+    (*trace_)(world::CastEnded{iterations_, m.status, m.time, pair});
+  }
+
+  Result result() const {
+    Result r;
+    r.status = cast_status_names[static_cast<std::size_t>(first_.status)];
+    r.intersecting = first_.status == CastStatus::hit || first_.status == CastStatus::initially_overlapping;
+    r.iterations = iterations_, r.support_calls = supports_;
+    r.time = first_.time;
+    r.touching_at = touching_at_;
+    if (r.intersecting) {
+      r.pair = {first_.first, first_.second};
+      r.normal = first_.gap.normal, r.witness_a = first_.gap.witness_a, r.witness_b = first_.gap.witness_b;
+    }
+    if (responded_) r.bodies = states();
+    return r;
+  }
+
+  /// Below this share of the speed a pair slides and does not approach.
+  static constexpr double sliding_ = 1e-12;
+
+  const Scene& scene_;
+  const Settings& settings_;
+  const Settings inner_;
+  TraceSink* trace_;
+  const int dimension_;
+  std::vector<Body> bodies_;
+  std::vector<double> reach_;
+  double target_ = 0, start_ = 0;
+  std::vector<Pair> pairs_;
+  TraceNumbers numbers_;
+  int iterations_ = 0, supports_ = 0;
+  bool responded_ = false;
+  Meeting first_, last_;
+  std::optional<double> touching_at_;
+};
+
+}  // namespace
+
+Result cast(const Scene& scene, const Settings& settings, TraceSink* trace) { return Caster(scene, settings, trace).run(); }
+
+}  // namespace gjkdbg

@@ -1,0 +1,67 @@
+#include "algo/motion.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace gjkdbg {
+
+AnyMatrix rotation_by(const AnyVector& angular_velocity, double time, int dimension) {
+  if (angular_velocity.size() == 0 || angular_velocity.isZero(0)) return AnyMatrix::Identity(dimension, dimension);
+  if (dimension == 2) {
+    const double angle = angular_velocity[0] * time;
+    AnyMatrix r(2, 2);
+    r << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+    return r;
+  }
+  const Eigen::Vector3d w = angular_velocity;
+  return Eigen::AngleAxisd(w.norm() * time, w.stableNormalized()).toRotationMatrix();
+}
+
+std::vector<double> orientation_of(const AnyMatrix& rotation) {
+  if (rotation.rows() == 1) return {1, 0, 0, 0};
+  if (rotation.rows() == 2) {
+    const double half = to_plane_angle(rotation).angle / 2;
+    return {std::cos(half), 0, 0, std::sin(half)};
+  }
+  const Quaternion q = to_quaternion(rotation);
+  return {q.wxyz.begin(), q.wxyz.end()};
+}
+
+Body moved(const Body& body, double time, int dimension) {
+  Body at = body;
+  if (!body.motion || body.motion->is_static || time == 0) return at;
+  at.pose.position += body.motion->velocity * time;
+  if (body.motion->angular_velocity.size() == 0 || body.motion->angular_velocity.isZero(0)) return at;
+  at.pose.matrix = rotation_by(body.motion->angular_velocity, time, dimension) * body.pose.matrix;
+  at.pose.rotation = RotationMatrix{at.pose.matrix};
+  return at;
+}
+
+namespace {
+
+template <int D>
+double reach(const Shape& shape) {
+  const Convex<D, double> convex(shape);
+  return convex.reference().norm() + convex.extent() + convex.radius();
+}
+
+}  // namespace
+
+double reach_of(const Shape& shape, int dimension) {
+  if (const Mesh* mesh = std::get_if<Mesh>(&shape.geometry)) {
+    double most = 0;
+    for (const AnyVector& p : mesh->points) most = std::max(most, p.norm());
+    return most + shape.margin;
+  }
+  return dimension == 1 ? reach<1>(shape) : dimension == 2 ? reach<2>(shape) : reach<3>(shape);
+}
+
+Settings static_settings(const Settings& settings) {
+  Settings s = settings;
+  if (s.name >= MethodName::conservative_advancement) s.name = MethodName::gjk;
+  s.tolerance = std::min(settings.tolerance, 1e-10);
+  return s;
+}
+
+}  // namespace gjkdbg

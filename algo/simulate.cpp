@@ -1,0 +1,370 @@
+#include "algo/simulate.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "algo/motion.h"
+#include "shapes/mass.h"
+
+namespace gjkdbg {
+namespace {
+
+using V3 = Eigen::Vector3d;
+using M3 = Eigen::Matrix3d;
+
+constexpr int most_rounds = 200;      ///< of impulses within a step
+constexpr double left_over = 1e-3;    ///< of the size: overlap that is left where it is
+constexpr double moved_apart = 0.4;   ///< share of the rest that a step takes away
+
+/// In the plane and on the line the missing coordinates are 0, and only the turn about z exists.
+struct RigidBody {
+  V3 x = V3::Zero(), v = V3::Zero(), l = V3::Zero();  ///< centre of mass, its velocity, angular momentum
+  M3 r = M3::Identity();
+  V3 center = V3::Zero();  ///< of mass, in the body's frame
+  M3 inertia = M3::Zero(), inverse = M3::Zero();  ///< in the body's frame
+  double mass = 1, inverse_mass = 1, reach = 0;
+  bool turns = false;
+
+  M3 world_inverse() const { return r * inverse * r.transpose(); }
+  V3 w() const { return turns ? V3(world_inverse() * l) : V3(V3::Zero()); }
+  V3 velocity_at(const V3& point) const { return v + w().cross(point - x); }
+  void push(const V3& impulse, const V3& point) {
+    v += impulse * inverse_mass;
+    if (turns) l += (point - x).cross(impulse);
+  }
+};
+
+struct Contact {
+  int first, second;
+  V3 point, normal;
+  double depth;
+  double restitution, friction;
+  V3 impulse = V3::Zero();  ///< on the second body, in this step
+  std::array<V3, 2> before;
+};
+
+class Simulation {
+ public:
+  Simulation(const Scene& scene, const Settings& settings, TraceSink* trace)
+      : scene_(scene), settings_(static_settings(settings)), trace_(trace), dimension_(scene.dimension), h_(scene.motion->time_step),
+        gravity_(in_space(scene.motion->gravity)) {
+    for (const Body& body : scene.bodies) bodies_.push_back(make(body));
+  }
+
+  Result run() {
+    emit_state();
+    for (int i = 0; i < scene_.motion->steps; ++i) {
+      step();
+      time_ = (i + 1) * h_;
+      emit_state();
+    }
+    return result();
+  }
+
+ private:
+  V3 in_space(const AnyVector& v) const {
+    V3 p = V3::Zero();
+    p.head(v.size()) = v;
+    return p;
+  }
+  AnyVector in_scene(const V3& v) const { return v.head(dimension_); }
+
+  RigidBody make(const Body& body) const {
+    const Motion& m = *body.motion;
+    RigidBody b;
+    b.r.topLeftCorner(dimension_, dimension_) = body.pose.matrix;
+    const MassProperties mass = mass_properties(body.shape, dimension_);
+    b.center = mass.center;
+    b.x = in_space(body.pose.position) + b.r * b.center;
+    b.reach = reach_of(body.shape, dimension_) + b.center.norm();
+    b.mass = m.mass;
+    b.inverse_mass = m.is_static ? 0 : 1 / m.mass;
+    if (m.is_static) return b;
+    const V3 w = dimension_ == 3 ? V3(m.angular_velocity) : dimension_ == 2 ? V3(0, 0, m.angular_velocity[0]) : V3(V3::Zero());
+    b.v = in_space(m.velocity) + w.cross(b.r * b.center);
+    b.inertia = m.mass * mass.inertia;
+    if (dimension_ == 2) b.inertia = V3(0, 0, b.inertia(2, 2)).asDiagonal();
+    // What has no extent across an axis does not resist turning about it, and does not turn.
+    const Eigen::SelfAdjointEigenSolver<M3> axes(b.inertia);
+    const double most = axes.eigenvalues().cwiseAbs().maxCoeff();
+    if (dimension_ > 1 && most > 0) {
+      V3 inverse = V3::Zero();
+      for (int i = 0; i < 3; ++i)
+        if (axes.eigenvalues()[i] > 1e-12 * most) inverse[i] = 1 / axes.eigenvalues()[i];
+      b.inverse = axes.eigenvectors() * inverse.asDiagonal() * axes.eigenvectors().transpose();
+      b.turns = true;
+      b.l = b.r * b.inertia * b.r.transpose() * w;
+    }
+    return b;
+  }
+
+  bool movable(const RigidBody& b) const { return b.inverse_mass > 0; }
+
+  // --- A step -------------------------------------------------------------------------------------------------------------
+
+  void step() {
+    const bool old_rates = scene_.motion->integrator == Integrator::explicit_euler;
+    if (old_rates) {
+      find_contacts();
+      apply_impulses();
+      move();
+      fall();
+    } else {
+      const bool exact = scene_.motion->integrator == Integrator::rk4;
+      fall();
+      find_contacts();
+      apply_impulses();
+      move();
+      if (exact) lift();
+    }
+    push_apart();
+  }
+
+  void fall() {
+    for (RigidBody& b : bodies_)
+      if (movable(b)) b.v += gravity_ * h_;
+  }
+
+  /// Runge and Kutta's rule integrates the fall exactly: x + v h + g h^2 / 2, where the new velocity alone gives g h^2. A body at rest on
+  /// something has had its fall taken from it and keeps its place.
+  void lift() {
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      if (movable(bodies_[i]) && !touched_[i]) bodies_[i].x -= gravity_ * (h_ * h_ / 2);
+  }
+
+  void move() {
+    for (RigidBody& b : bodies_) {
+      if (!movable(b)) continue;
+      b.x += b.v * h_;
+      if (!b.turns || b.l.isZero(0)) continue;
+      switch (scene_.motion->integrator) {
+        case Integrator::explicit_euler: turn_as_taught(b); break;
+        case Integrator::semi_implicit_euler: turn_by_exponential(b); break;
+        case Integrator::rk4: turn_rk4(b); break;
+      }
+    }
+  }
+
+  static M3 rotation(const V3& turn) {
+    const double angle = turn.norm();
+    return angle > 0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() : M3(M3::Identity());
+  }
+
+  /// exp(w h) R with the w of the middle of the step, R being half way there: of second order.
+  void turn_by_exponential(RigidBody& b) const {
+    RigidBody half = b;
+    half.r = rotation(b.w() * (h_ / 2)) * b.r;
+    b.r = rotation(half.w() * h_) * b.r;
+  }
+
+  /// R' = [w] R, then Gram and Schmidt from the first column.
+  void turn_as_taught(RigidBody& b) const {
+    M3 cross;
+    const V3 w = b.w();
+    cross << 0, -w[2], w[1], w[2], 0, -w[0], -w[1], w[0], 0;
+    b.r += h_ * cross * b.r;
+    b.r.col(0).normalize();
+    b.r.col(1) = (b.r.col(1) - b.r.col(0) * b.r.col(0).dot(b.r.col(1))).normalized();
+    b.r.col(2) = b.r.col(0).cross(b.r.col(1));
+  }
+
+  /// q' = w q / 2 with w = I(q)^-1 L, L constant between impulses.
+  void turn_rk4(RigidBody& b) const {
+    using Q = Eigen::Vector4d;  // x y z w
+    const auto rate = [&](const Q& q) {
+      const Eigen::Quaterniond unit = Eigen::Quaterniond(q).normalized();
+      const M3 r = unit.toRotationMatrix();
+      const V3 w = r * b.inverse * (r.transpose() * b.l);
+      const Eigen::Quaterniond d = Eigen::Quaterniond(0, w[0], w[1], w[2]) * Eigen::Quaterniond(q);
+      return Q(d.coeffs() * 0.5);
+    };
+    const Q q = Eigen::Quaterniond(b.r).coeffs();
+    const Q k1 = rate(q), k2 = rate(q + h_ / 2 * k1), k3 = rate(q + h_ / 2 * k2), k4 = rate(q + h_ * k3);
+    b.r = Eigen::Quaterniond(Q(q + h_ / 6 * (k1 + 2 * k2 + 2 * k3 + k4))).normalized().toRotationMatrix();
+  }
+
+  // --- Contacts -------------------------------------------------------------------------------------------------------------
+
+  Body placed(std::size_t i) const {
+    Body body = scene_.bodies[i];
+    const RigidBody& b = bodies_[i];
+    body.motion.reset();
+    body.pose.matrix = b.r.topLeftCorner(dimension_, dimension_);
+    body.pose.rotation = RotationMatrix{body.pose.matrix};
+    body.pose.position = in_scene(V3(b.x - b.r * b.center));
+    return body;
+  }
+
+  void find_contacts() {
+    contacts_.clear();
+    touched_.assign(bodies_.size(), false);
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      for (std::size_t j = i + 1; j < bodies_.size(); ++j) {
+        if (!movable(bodies_[i]) && !movable(bodies_[j])) continue;
+        if ((bodies_[i].x - bodies_[j].x).norm() > bodies_[i].reach + bodies_[j].reach) continue;
+        contacts_of(i, j);
+      }
+  }
+
+  void contacts_of(std::size_t i, std::size_t j) {
+    Scene two;
+    two.dimension = dimension_;
+    two.query = Query::contact;
+    two.bodies = {placed(i), placed(j)};
+    const Result r = solve_static(two, settings_, trace_, numbers_);
+    numbers_.next_run();
+    supports_ += r.support_calls, iterations_ += r.iterations;
+    if (!r.intersecting || !r.normal || !r.contacts) return;
+    const Motion &a = *scene_.bodies[i].motion, &b = *scene_.bodies[j].motion;
+    for (const ContactPoint& c : *r.contacts) {
+      Contact contact{static_cast<int>(i), static_cast<int>(j), in_space(AnyVector((c.point_a + c.point_b) / 2)), in_space(*r.normal), c.depth,
+                      std::max(a.restitution, b.restitution), std::sqrt(a.friction * b.friction), V3::Zero(), {bodies_[i].v, bodies_[j].v}};
+      contacts_.push_back(contact);
+      if (trace_)
+        (*trace_)(world::ContactFound{time_, {contact.first, contact.second}, in_scene(contact.point), in_scene(contact.normal), contact.depth});
+    }
+  }
+
+  // --- Impulses ---------------------------------------------------------------------------------------------------------------
+
+  /// How the relative velocity at the contact changes by a unit impulse along a direction.
+  V3 change_by(const Contact& c, const V3& direction) const {
+    V3 change = V3::Zero();
+    for (const int i : {c.first, c.second}) {
+      const RigidBody& b = bodies_[static_cast<std::size_t>(i)];
+      change += b.inverse_mass * direction;
+      const V3 arm = c.point - b.x;
+      if (b.turns) change += (b.world_inverse() * arm.cross(direction)).cross(arm);
+    }
+    return change;
+  }
+
+  V3 relative_velocity(const Contact& c) const {
+    return bodies_[static_cast<std::size_t>(c.second)].velocity_at(c.point) - bodies_[static_cast<std::size_t>(c.first)].velocity_at(c.point);
+  }
+
+  void apply(Contact& c, const V3& impulse) {
+    bodies_[static_cast<std::size_t>(c.second)].push(impulse, c.point);
+    bodies_[static_cast<std::size_t>(c.first)].push(-impulse, c.point);
+    c.impulse += impulse;
+  }
+
+  void apply_impulses() {
+    double speed = 0;
+    for (const RigidBody& b : bodies_) speed = std::max(speed, b.v.norm() + b.w().norm() * b.reach);
+    for (int round = 0; round < most_rounds; ++round) {
+      bool approached = false;
+      for (Contact& c : contacts_) approached |= push(c, 1e-12 * speed);
+      if (!approached) break;
+    }
+    for (const Contact& c : contacts_) {
+      touched_[static_cast<std::size_t>(c.first)] = touched_[static_cast<std::size_t>(c.second)] = true;
+      if (!trace_ || c.impulse.isZero(0)) continue;
+      const std::vector<AnyVector> before{in_scene(c.before[0]), in_scene(c.before[1])};
+      const std::vector<AnyVector> after{in_scene(bodies_[static_cast<std::size_t>(c.first)].v), in_scene(bodies_[static_cast<std::size_t>(c.second)].v)};
+      (*trace_)(world::ImpulseApplied{time_, {c.first, c.second}, in_scene(c.point), in_scene(c.normal), in_scene(c.impulse), before, after});
+    }
+  }
+
+  /// True when the contact approached. An impulse along the normal with restitution never adds energy; friction takes some.
+  bool push(Contact& c, double least) {
+    const V3 u = relative_velocity(c);
+    const double approach = -u.dot(c.normal);
+    if (!(approach > least)) return false;
+    const bool resting = approach <= 2 * gravity_.norm() * h_;
+    const double j = (1 + (resting ? 0 : c.restitution)) * approach / c.normal.dot(change_by(c, c.normal));
+    apply(c, j * c.normal);
+    if (!(c.friction > 0)) return true;
+    const V3 along = relative_velocity(c), slip = along - c.normal * c.normal.dot(along);
+    if (!(slip.norm() > 1e-14)) return true;
+    const V3 t = slip.normalized();
+    // Coulomb's cone holds for the whole of the step's impulse, not for each part of it.
+    const double pressed = c.impulse.dot(c.normal), rubbed = (c.impulse - c.normal * pressed).norm();
+    const double rub = std::min(slip.norm() / t.dot(change_by(c, t)), std::max(0.0, c.friction * pressed - rubbed));
+    apply(c, -rub * t);
+    return true;
+  }
+
+  /// Places alone: no velocity, hence no kinetic energy.
+  void push_apart() {
+    for (const Contact& c : contacts_) {
+      RigidBody &a = bodies_[static_cast<std::size_t>(c.first)], &b = bodies_[static_cast<std::size_t>(c.second)];
+      const double slop = left_over * std::min(a.reach, b.reach), extra = c.depth - slop;
+      const double weight = a.inverse_mass + b.inverse_mass;
+      if (!(extra > 0) || !(weight > 0)) continue;
+      const auto points = static_cast<double>(std::count_if(contacts_.begin(), contacts_.end(), [&](const Contact& o) { return o.first == c.first && o.second == c.second; }));
+      const V3 shift = c.normal * (moved_apart * extra / weight / points);
+      a.x -= shift * a.inverse_mass;
+      b.x += shift * b.inverse_mass;
+    }
+  }
+
+  // --- What is told ---------------------------------------------------------------------------------------------------------
+
+  double energy() const {
+    double e = 0;
+    for (const RigidBody& b : bodies_)
+      if (movable(b)) e += b.mass * b.v.squaredNorm() / 2 + b.w().dot(b.l) / 2 - b.mass * gravity_.dot(b.x);
+    return e;
+  }
+
+  V3 momentum() const {
+    V3 p = V3::Zero();
+    for (const RigidBody& b : bodies_)
+      if (movable(b)) p += b.mass * b.v;
+    return p;
+  }
+
+  std::vector<FinalState> states() const {
+    std::vector<FinalState> list;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const Body at = placed(i);
+      const RigidBody& b = bodies_[i];
+      const V3 w = b.w();
+      std::vector<double> spin;
+      if (dimension_ == 3) spin = {w[0], w[1], w[2]};
+      if (dimension_ == 2) spin = {w[2]};
+      list.push_back({at.pose.position, orientation_of(at.pose.matrix), in_scene(V3(b.v - w.cross(b.r * b.center))), spin});
+    }
+    return list;
+  }
+
+  void emit_state() {
+    if (!trace_) return;
+    const std::vector<FinalState> kept = states();
+    std::vector<world::BodyState> views;
+    for (const FinalState& s : kept) views.push_back({s.position, s.orientation, s.velocity, s.angular_velocity});
+    (*trace_)(world::State{time_, views, energy(), in_scene(momentum())});
+  }
+
+  Result result() const {
+    Result r;
+    r.status = "completed";
+    r.intersecting = !contacts_.empty();
+    r.iterations = iterations_, r.support_calls = supports_;
+    r.time = time_;
+    r.energy = energy();
+    r.bodies = states();
+    return r;
+  }
+
+  const Scene& scene_;
+  const Settings settings_;
+  TraceSink* trace_;
+  const int dimension_;
+  const double h_;
+  const V3 gravity_;
+  std::vector<RigidBody> bodies_;
+  std::vector<Contact> contacts_;
+  std::vector<bool> touched_;
+  TraceNumbers numbers_;
+  double time_ = 0;
+  int iterations_ = 0, supports_ = 0;
+};
+
+}  // namespace
+
+Result simulate(const Scene& scene, const Settings& settings, TraceSink* trace) { return Simulation(scene, settings, trace).run(); }
+
+}  // namespace gjkdbg

@@ -1,0 +1,173 @@
+#include "shapes/mass.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "shapes/convex.h"
+#include "shapes/convex_hull.h"
+
+namespace gjkdbg {
+namespace {
+
+using Point = Vector<3, double>;
+using Tensor = Matrix<3, double>;
+constexpr double pi = std::numbers::pi;
+
+/// Volume, first and second moments: integrals of 1, x and x x^T.
+struct Moments {
+  double volume = 0;
+  Point first = Point::Zero();
+  Tensor second = Tensor::Zero();
+
+  /// A simplex with vertices v_0 … v_k and volume V has first moment V s / (k + 1) and second V (sum v v^T + s s^T) / ((k + 1) (k + 2)),
+  /// s the sum of the vertices (integrals of barycentric coordinates: i! j! … k! / (i + j + … + k)!).
+  void add(double v, std::initializer_list<Point> vertices) {
+    const auto n = static_cast<double>(vertices.size());
+    Point s = Point::Zero();
+    Tensor squares = Tensor::Zero();
+    for (const Point& p : vertices) s += p, squares += p * p.transpose();
+    volume += v;
+    first += v * s / n;
+    second += v * (squares + s * s.transpose()) / (n * (n + 1));
+  }
+
+  /// About the centre; inertia = trace(C) - C of the second moment C there.
+  MassProperties properties() const {
+    MassProperties m;
+    if (!(volume > 0)) return m;
+    m.center = first / volume;
+    const Tensor c = second / volume - m.center * m.center.transpose();
+    m.inertia = c.trace() * Tensor::Identity() - c;
+    return m;
+  }
+};
+
+Point in_space(const AnyVector& v) {
+  Point p = Point::Zero();
+  p.head(v.size()) = v;
+  return p;
+}
+
+/// Solids by tetrahedra from one point, flat sets by triangles, rods by their segment.
+MassProperties of_points(const std::vector<AnyVector>& points, int dimension) {
+  const ConvexHull hull = convex_hull(points, dimension);
+  const auto at = [&](int i) { return in_space(points[static_cast<std::size_t>(i)]); };
+  Moments m;
+  const Point o = at(hull.vertices.front());
+  if (hull.rank == 0) {
+    MassProperties alone;
+    alone.center = o;
+    return alone;
+  }
+  if (hull.rank == 1) {
+    const Point p = at(hull.vertices.back());
+    m.add((p - o).norm(), {o, p});
+    return m.properties();
+  }
+  for (const auto& face : hull.faces) {
+    const Point a = at(face[0]);
+    for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+      const Point b = at(face[i]), c = at(face[i + 1]);
+      if (hull.rank == 3) m.add((a - o).dot((b - o).cross(c - o)) / 6, {o, a, b, c});
+      else m.add((b - a).cross(c - a).norm() / 2, {a, b, c});  // in space a flat set has its polygon twice, which divides out
+    }
+  }
+  return m.properties();
+}
+
+MassProperties diagonal(double x, double y, double z) {
+  MassProperties m;
+  m.inertia.diagonal() << x, y, z;
+  return m;
+}
+
+/// About an axis of symmetry, and across it.
+MassProperties around(int axis, double along, double across) {
+  MassProperties m = diagonal(across, across, across);
+  m.inertia(axis, axis) = along;
+  return m;
+}
+
+struct OfGeometry {
+  int dimension;
+  bool plane() const { return dimension == 2; }
+
+  MassProperties operator()(const Sphere& s) const {
+    const double i = (plane() ? 0.5 : 0.4) * s.radius * s.radius;
+    return diagonal(i, i, i);
+  }
+  MassProperties operator()(const Box& b) const {
+    const Point half = in_space(AnyVector((b.max - b.min) / 2));
+    const Point square = half.cwiseProduct(half) / 3;
+    MassProperties m = diagonal(square[1] + square[2], square[0] + square[2], square[0] + square[1]);
+    m.center = in_space(AnyVector(b.min + (b.max - b.min) / 2));
+    return m;
+  }
+  /// A cylinder (in the plane a rectangle) and two caps, each a half ball whose centre of mass lies 3/8 r (4 r / 3 pi) beyond the end.
+  MassProperties operator()(const Capsule& c) const {
+    const double r = c.radius, h = c.half_height;
+    if (plane()) {
+      const double middle = 4 * h * r, caps = pi * r * r, all = middle + caps;
+      if (!(all > 0)) return diagonal(0, 0, h * h / 3);
+      return diagonal(0, 0, (middle * (h * h + r * r) / 3 + caps * (r * r / 2 + h * h + 8 * h * r / (3 * pi))) / all);
+    }
+    const double middle = 2 * h * pi * r * r, caps = 4.0 / 3 * pi * r * r * r, all = middle + caps;
+    if (!(all > 0)) return around(c.axis, 0, h * h / 3);
+    const double along = (middle * r * r / 2 + caps * 0.4 * r * r) / all;
+    const double across = (middle * (r * r / 4 + h * h / 3) + caps * (0.4 * r * r + h * h + 0.75 * h * r)) / all;
+    return around(c.axis, along, across);
+  }
+  MassProperties operator()(const Cylinder& c) const {
+    const double r = c.radius * c.radius;
+    return around(c.axis, r / 2, r / 4 + c.half_height * c.half_height / 3);
+  }
+  /// Of height 2 h: the centre of mass lies a quarter of it above the base; across 3/20 r^2 + 3/80 (2 h)^2.
+  MassProperties operator()(const Cone& c) const {
+    const double r = c.radius * c.radius, h = c.half_height * c.half_height;
+    MassProperties m = around(c.axis, 0.3 * r, 0.15 * (r + h));
+    m.center[c.axis] = -c.half_height / 2;
+    return m;
+  }
+  MassProperties operator()(const Ellipsoid& e) const {
+    const Point radii = in_space(e.radii), square = radii.cwiseProduct(radii) / (plane() ? 4 : 5);
+    return diagonal(square[1] + square[2], square[0] + square[2], square[0] + square[1]);
+  }
+  MassProperties operator()(const PointSet& set) const { return of_points(set.points, dimension); }
+  MassProperties operator()(const Mesh&) const { return {}; }
+  MassProperties operator()(const Sum&) const { return {}; }
+};
+
+template <int D>
+MassProperties sampled(const Shape& shape) {
+  const Convex<D, double> convex(shape);
+  std::vector<AnyVector> points;
+  int hint = 0;
+  const int rings = D == 3 ? 18 : 2;
+  for (int i = 1; i < rings; ++i)
+    for (int k = 0; k < 72; ++k) {
+      const double u = i * pi / rings, t = k * pi / 36;
+      Vector<D, double> d = Vector<D, double>::Zero();
+      d[0] = std::cos(t) * (D == 3 ? std::sin(u) : 1);
+      if constexpr (D > 1) d[1] = std::sin(t) * (D == 3 ? std::sin(u) : 1);
+      if constexpr (D > 2) d[2] = std::cos(u);
+      points.push_back(convex.reference() + convex.support(d, hint) + convex.radius() * d.normalized());
+    }
+  return of_points(points, D);
+}
+
+}  // namespace
+
+MassProperties mass_properties(const Shape& shape, int dimension) {
+  if (dimension == 1) {
+    MassProperties m;
+    if (const Box* box = std::get_if<Box>(&shape.geometry)) m.center[0] = box->min[0] + (box->max[0] - box->min[0]) / 2;
+    return m;
+  }
+  Shape whole = shape;
+  if (Sphere* s = std::get_if<Sphere>(&whole.geometry)) s->radius += whole.margin, whole.margin = 0;
+  if (Capsule* c = std::get_if<Capsule>(&whole.geometry)) c->radius += whole.margin, whole.margin = 0;
+  if (whole.margin == 0 && !std::holds_alternative<Sum>(whole.geometry)) return std::visit(OfGeometry{dimension}, whole.geometry);
+  return dimension == 2 ? sampled<2>(whole) : sampled<3>(whole);
+}
+
+}  // namespace gjkdbg
