@@ -83,6 +83,8 @@ Settings resolve_settings(const Method& method, const Scene& scene) {
   s.max_iterations = method.max_iterations.value_or(s.max_iterations);
   s.initial_direction = method.initial_direction;
   if (s.name == MethodName::sat) check_polytopes(scene);
+  if (scene.query != Query::cast && scene.query != Query::simulate && scene.bodies.size() != 2)
+    throw Error("wrong-count", "the query \"" + std::string(query_names[static_cast<std::size_t>(scene.query)]) + "\" takes two bodies, not " + std::to_string(scene.bodies.size()), "/bodies");
   check_motion(s, scene);
   check_numbers(s, scene.dimension);
   if (s.name == MethodName::gjk_boolean && scene.query != Query::intersect)

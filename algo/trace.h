@@ -9,33 +9,13 @@
 //   recording   AnyVector in the world's frame,      Owned
 #pragma once
 
-#include <array>
-#include <span>
-#include <string>
-#include <string_view>
-#include <tuple>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
-#include "algo/status.h"
-#include "shapes/vector.h"
+#include "algo/event.h"
+#include "algo/motion_events.h"
 
 namespace gjkdbg {
-
-/// Where an event's lists and texts live: borrowed from the algorithm, or owned by a recording.
-struct Viewed {
-  template <class T>
-  using List = std::span<const T>;
-  using Text = std::string_view;
-};
-struct Owned {
-  template <class T>
-  using List = std::vector<T>;
-  using Text = std::string;
-};
-template <class Store, class T>
-using ListOf = typename Store::template List<T>;
 
 /// Where a support query came from.
 enum class Phase { gjk, seed, epa, mpr, sat, cast };
@@ -44,18 +24,6 @@ inline constexpr std::array<std::string_view, 6> phase_names{"gjk", "seed", "epa
 /// What a separating axis was taken from.
 enum class AxisSource { face_a, face_b, edge_pair };
 inline constexpr std::array<std::string_view, 3> axis_source_names{"face_a", "face_b", "edge_pair"};
-
-template <class Event, class Member>
-struct Field {
-  std::string_view name;
-  Member Event::*member;
-};
-template <class Event, class Member>
-constexpr Field<Event, Member> field(std::string_view name, Member Event::*member) {
-  return {name, member};
-}
-
-using Edge = std::array<int, 2>;
 
 /// A face of the polytope: D vertices, counter-clockwise seen from outside; `normal` is a unit vector pointing
 /// outwards; `distance` is the signed distance of its plane from the origin (negative: the origin is outside).
@@ -270,103 +238,6 @@ struct SatEnded {
   static constexpr auto fields() {
     return std::tuple(field("iteration", &SatEnded::iteration), field("status", &SatEnded::status),
                       field("normal", &SatEnded::normal), field("distance", &SatEnded::distance));
-  }
-};
-
-// --- Motion (algo/cast.h, algo/simulate.h): world frame; every run of GJK and EPA nests inside its step -------------------------
-
-/// The pairs of bodies that move against each other.
-template <class V, class Store>
-struct CastBegan {
-  static constexpr std::string_view kind = "cast_began";
-  ListOf<Store, Edge> pairs;
-  static constexpr auto fields() { return std::tuple(field("pairs", &CastBegan::pairs)); }
-};
-
-/// At `time` the pair is `distance` apart along `normal`, and its bodies come nearer by at most `bound` per unit of time: until
-/// time + distance / bound they cannot meet.
-template <class V, class Store>
-struct CastAdvanced {
-  static constexpr std::string_view kind = "cast_advanced";
-  int iteration = 0;
-  double time = 0;
-  Edge pair{};
-  double distance = 0;
-  V normal;
-  double bound = 0;
-  static constexpr auto fields() {
-    return std::tuple(field("iteration", &CastAdvanced::iteration), field("time", &CastAdvanced::time), field("pair", &CastAdvanced::pair),
-                      field("distance", &CastAdvanced::distance), field("normal", &CastAdvanced::normal), field("bound", &CastAdvanced::bound));
-  }
-};
-
-/// `pair` holds the two bodies that meet, or nothing.
-template <class V, class Store>
-struct CastEnded {
-  static constexpr std::string_view kind = "cast_ended";
-  int iteration = 0;
-  CastStatus status = CastStatus::miss;
-  double time = 0;
-  ListOf<Store, int> pair;
-  static constexpr auto fields() {
-    return std::tuple(field("iteration", &CastEnded::iteration), field("status", &CastEnded::status), field("time", &CastEnded::time),
-                      field("pair", &CastEnded::pair));
-  }
-};
-
-/// Where a body is and how it moves. `orientation`: quaternion w x y z (in the plane about z). `angular_velocity`: radians, 3 numbers
-/// (in the plane one, on a line none).
-template <class V, class Store>
-struct BodyState {
-  V position;
-  ListOf<Store, double> orientation;
-  V velocity;
-  ListOf<Store, double> angular_velocity;
-  static constexpr auto fields() {
-    return std::tuple(field("position", &BodyState::position), field("orientation", &BodyState::orientation),
-                      field("velocity", &BodyState::velocity), field("angular_velocity", &BodyState::angular_velocity));
-  }
-};
-
-/// All bodies at a time. `energy` (kinetic and of place) and `momentum` are those of the bodies that are not static; of a cast 0.
-template <class V, class Store>
-struct State {
-  static constexpr std::string_view kind = "state";
-  double time = 0;
-  ListOf<Store, BodyState<V, Store>> bodies;
-  double energy = 0;
-  V momentum;
-  static constexpr auto fields() {
-    return std::tuple(field("time", &State::time), field("bodies", &State::bodies), field("energy", &State::energy),
-                      field("momentum", &State::momentum));
-  }
-};
-
-template <class V, class Store>
-struct ContactFound {
-  static constexpr std::string_view kind = "contact_found";
-  double time = 0;
-  Edge pair{};
-  V point, normal;  ///< the normal points from the pair's first body to its second
-  double depth = 0;
-  static constexpr auto fields() {
-    return std::tuple(field("time", &ContactFound::time), field("pair", &ContactFound::pair), field("point", &ContactFound::point),
-                      field("normal", &ContactFound::normal), field("depth", &ContactFound::depth));
-  }
-};
-
-/// The second body gets `impulse`, the first its opposite. Velocities are those of the bodies' centres, first and second.
-template <class V, class Store>
-struct ImpulseApplied {
-  static constexpr std::string_view kind = "impulse_applied";
-  double time = 0;
-  Edge pair{};
-  V point, normal, impulse;
-  ListOf<Store, V> velocities_before, velocities_after;
-  static constexpr auto fields() {
-    return std::tuple(field("time", &ImpulseApplied::time), field("pair", &ImpulseApplied::pair), field("point", &ImpulseApplied::point),
-                      field("normal", &ImpulseApplied::normal), field("impulse", &ImpulseApplied::impulse),
-                      field("velocities_before", &ImpulseApplied::velocities_before), field("velocities_after", &ImpulseApplied::velocities_after));
   }
 };
 

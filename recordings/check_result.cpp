@@ -102,6 +102,7 @@ void check_result(CheckContext& c, double best_plane) {
 void check_need(CheckContext& c) {
   const SceneFile& file = c.recording.scene;
   const Query query = file.scene.query;
+  if (c.recording.generator != generator_name()) return;  // what another solver spends is its own affair
   const bool costly = query == Query::distance || query == Query::penetration || query == Query::contact;
   // MPR's depth is an upper bound, so that a scene of it may well expect yes or no alone.
   if (!costly || !file.expect || !file.expect->intersecting || file.expect->signed_distance || file.expect->normal || c.recording.settings.penetration == Penetration::mpr) return;

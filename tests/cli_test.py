@@ -89,7 +89,7 @@ class Program(unittest.TestCase):
         self.refused(run("dump", self.write("bad.json", "{")), "bad.json", "line 1, column 2")
         self.refused(run("dump", self.write("bad.json", {**CUBES, "dimension": 4})), "bad.json", "/dimension")
         self.refused(run("dump", self.write("bad.json", {**CUBES, "querry": "distance"})), "/querry", "query")
-        self.refused(run("dump", self.write("bad.json", {**CUBES, "query": "cast"})), "/query", "cast")
+        self.refused(run("dump", self.write("bad.json", {**CUBES, "query": "cast", "gravity": [0, 0, 1]})), "/gravity", "not a known field")
         self.refused(run("dump", self.write("bad.json", "\xff\x00")), "bad.json")
         self.refused(run("dump", self.scene, "--tolerance", "-1"), "--tolerance")
         self.refused(run("dump", self.scene, "--scalar", "half"), "--scalar")

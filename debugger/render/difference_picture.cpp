@@ -1,0 +1,245 @@
+// The Minkowski difference: simplex, direction, support plane, regions, polytope, portal.
+#include <algorithm>
+#include <cmath>
+
+#include "debugger/render/painter.h"
+#include "debugger/render/regions.h"
+
+namespace gjkdbg {
+namespace {
+
+class DifferencePainter : public Painter {
+ public:
+  using Painter::Painter;
+
+  Picture paint() {
+    grid();
+    if (settings_.difference && !moves()) mesh(meshes_.difference, palette_.text_faint, 0.07, ViewPoint::Zero());
+    if (settings_.difference && moves()) mesh(difference_here(), palette_.text_faint, 0.07, ViewPoint::Zero());
+    region();
+    polytope();
+    portal();
+    fading();
+    simplex();
+    bound_rings();
+    origin();
+    direction();
+    closest();
+    vertices();
+    return std::move(picture_);
+  }
+
+ private:
+  DisplayMesh difference_here() const {
+    const auto& bodies = recording_.scene.scene.bodies;
+    const auto at = [&](int i) {
+      Body body = bodies[static_cast<std::size_t>(i)];
+      body.pose.position = frame_.places[static_cast<std::size_t>(i)].position, body.pose.matrix = frame_.places[static_cast<std::size_t>(i)].rotation;
+      return body;
+    };
+    const int n = static_cast<int>(bodies.size());
+    if (frame_.pair[0] >= n || frame_.pair[1] >= n) return {};
+    return difference_mesh(at(frame_.pair[0]), at(frame_.pair[1]), meshes_.dimension);
+  }
+
+  // --- The difference ---------------------------------------------------------------------------------------------
+
+  void origin() {
+    if (meshes_.radius > 0 && flat()) circle(meshes_.radius, palette_.frontier.with_alpha(0.8));
+    if (meshes_.radius > 0 && !flat()) circle_facing(meshes_.radius, palette_.frontier.with_alpha(0.8));
+    picture_.points.push_back({ViewPoint::Zero(), palette_.origin, 9, Mark::cross, -1});
+    label(ViewPoint::Zero(), "O", palette_.origin, 10, 12);
+  }
+  void circle(double radius, Colour colour) { ring(radius, ViewPoint::UnitX(), ViewPoint::UnitY(), colour); }
+  void circle_facing(double radius, Colour colour) { ring(radius, projection_.right(), projection_.up(), colour); }
+  void ring(double radius, const ViewPoint& x, const ViewPoint& y, Colour colour) {
+    constexpr int parts = 64;
+    const auto at = [&](int i) { return ViewPoint(radius * (std::cos(i * 2 * M_PI / parts) * x + std::sin(i * 2 * M_PI / parts) * y)); };
+    for (int i = 0; i < parts; i += 2) picture_.line(at(i), at(i + 1), colour, 1.3);
+  }
+
+  void face(const FrameFace& f, Colour colour, double opacity, double width, Stroke stroke = Stroke::solid) {
+    PictureFace filled;
+    for (const int v : f.vertices) {
+      const FrameVertex* p = vertex(v);
+      if (!p) return;
+      filled.points.push_back(to_view(p->w));
+    }
+    const std::size_t n = filled.points.size();
+    for (std::size_t i = 0; i < (n == 2 ? 1 : n) && n > 1; ++i) picture_.line(filled.points[i], filled.points[(i + 1) % n], colour.with_alpha(stroke == Stroke::dashed ? 0.7 : 0.9), width, stroke);
+    filled.fill = colour.with_alpha(opacity);
+    if (n > 2) picture_.faces.push_back(std::move(filled));
+  }
+
+  void polytope() {
+    for (const auto& [number, f] : frame_.faces) {
+      const bool chosen = frame_.chosen == number, added = std::find(frame_.added.begin(), frame_.added.end(), number) != frame_.added.end();
+      const Colour colour = chosen ? palette_.chosen : added ? palette_.frontier : palette_.simplex;
+      face(f, colour, chosen ? 0.5 : added ? 0.16 : 0.1, chosen ? 3 : added ? 1.6 : 1.2);
+    }
+    if (settings_.dropped)
+      for (const FrameFace& f : frame_.removed) face(f, palette_.dropped, 0.04, 1.2, Stroke::dashed);
+    for (const Edge& e : frame_.horizon) {
+      const FrameVertex *p = vertex(e[0]), *q = vertex(e[1]);
+      if (p && q && !flat()) picture_.lines.push_back({to_view(p->w), to_view(q->w), palette_.frontier, 3.2, Stroke::solid, true, true});
+    }
+    if (!frame_.normal || !frame_.depth) return;
+    const ViewPoint tip = to_view(*frame_.normal) * std::max(0.0, *frame_.depth - meshes_.radius);
+    picture_.lines.push_back({ViewPoint::Zero(), tip, palette_.chosen, 3, Stroke::solid, true, true});
+    label(tip, "depth", palette_.chosen);
+  }
+
+  /// MPR: the rays from the inner point to the portal's corners, and the one through the origin.
+  void portal() {
+    if (!frame_.interior) return;
+    const ViewPoint inside = to_view(*frame_.interior);
+    picture_.points.push_back({inside, palette_.text, 6, Mark::ring, -1});
+    label(inside, "inside", palette_.text, 9, 12);
+    const ViewPoint ahead = -inside;
+    picture_.lines.push_back({inside, ahead.isZero(0) ? inside : ViewPoint(ahead.stableNormalized() * unit() * 0.8), palette_.text_soft, 1.6, Stroke::dashed, true, true});
+    if (frame_.portal.empty()) return;
+    for (const int v : frame_.portal)
+      if (const FrameVertex* p = vertex(v)) picture_.line(inside, to_view(p->w), palette_.chosen.with_alpha(0.5), 1.3);
+    face({-1, 0, frame_.portal, {}, 0}, palette_.chosen, 0.4, 2.6);
+  }
+
+  /// The simplex before the cut and the part that was kept: where the origin is seen from.
+  void region() {
+    const auto* e = std::get_if<recorded::SimplexReduced>(&recording_.events[frame_.step]);
+    if (!e || !settings_.regions || e->before.size() < 2) return;
+    std::vector<ViewPoint> points;
+    std::vector<int> part;
+    for (const int v : e->before) {
+      const FrameVertex* p = vertex(v);
+      if (!p) return;
+      if (std::find(e->region.begin(), e->region.end(), v) != e->region.end()) part.push_back(static_cast<int>(points.size()));
+      points.push_back(to_view(p->w));
+    }
+    if (part.size() != e->region.size()) return;
+    draw_region(picture_, points, part, 3 * unit(), palette_.simplex, meshes_.dimension);
+    ViewPoint middle = ViewPoint::Zero();
+    std::string name;
+    for (const int i : part) middle += points[static_cast<std::size_t>(i)] / static_cast<double>(part.size());
+    for (const int v : frame_.simplex) name += letter_of(v);
+    std::sort(name.begin(), name.end());
+    label(meshes_.dimension == 1 ? middle : ViewPoint(middle * 0.55), "region " + name, palette_.simplex, 10, 22);
+  }
+
+  /// What was dropped in the last steps, fading.
+  void fading() {
+    if (!settings_.dropped) return;
+    std::size_t cuts = 0;
+    for (std::size_t back = 1; back <= 8 && back <= frame_.step && cuts < 2; ++back) {
+      const Event& event = recording_.events[frame_.step - back];
+      if (std::holds_alternative<recorded::GjkBegan>(event) || std::holds_alternative<recorded::PolytopeSeeded>(event)) return;
+      const auto* e = std::get_if<recorded::SimplexReduced>(&event);
+      if (!e || e->before.size() == e->region.size()) continue;
+      ++cuts;
+      for (const int v : e->before) {
+        if (std::find(e->region.begin(), e->region.end(), v) != e->region.end() || vertex(v)) continue;
+        for (std::size_t k = frame_.step - back; k-- > 0;)
+          if (const auto* query = std::get_if<recorded::SupportQueried>(&recording_.events[k]); query && query->vertex == v) {
+            picture_.points.push_back({to_view(query->w), palette_.dropped.with_alpha(cuts == 1 ? 0.55 : 0.3), 3.5, Mark::disc, -1});
+            break;
+          }
+      }
+    }
+  }
+
+  /// The surface of A - B is nowhere nearer than the one ring and somewhere no farther than the other.
+  void bound_rings() {
+    if (!settings_.bounds || meshes_.dimension == 1) return;
+    const auto ring_at = [&](double bound, Colour colour) {
+      const double r = std::abs(bound + meshes_.radius);
+      if (!std::isfinite(r) || !(r > 1e-3 * unit()) || r > 50 * unit()) return;
+      if (flat()) ring(r, ViewPoint::UnitX(), ViewPoint::UnitY(), colour);
+      else ring(r, projection_.right(), projection_.up(), colour);
+    };
+    if (frame_.upper_bound) ring_at(*frame_.upper_bound, palette_.text_soft.with_alpha(0.5));
+    if (frame_.lower_bound && frame_.lower_bound != frame_.upper_bound) ring_at(*frame_.lower_bound, palette_.text_faint.with_alpha(0.4));
+  }
+
+  void simplex() {
+    std::vector<ViewPoint> points;
+    for (const int v : frame_.simplex)
+      if (const FrameVertex* p = vertex(v)) points.push_back(to_view(p->w));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (std::size_t j = i + 1; j < points.size(); ++j) picture_.line(points[i], points[j], palette_.simplex, meshes_.dimension == 1 ? 5 : 2.4);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      for (std::size_t j = i + 1; j < points.size(); ++j)
+        for (std::size_t k = j + 1; k < points.size(); ++k) picture_.faces.push_back({{points[i], points[j], points[k]}, palette_.simplex.with_alpha(0.2)});
+    if (!settings_.dropped) return;
+    for (const int d : frame_.dropped)
+      if (const FrameVertex* p = vertex(d))
+        for (const ViewPoint& q : points) picture_.line(to_view(p->w), q, palette_.dropped, 1.3, Stroke::dashed);
+  }
+
+  void direction() {
+    if (!frame_.direction || frame_.gjk_status) {
+      if (frame_.stage == Frame::Stage::gjk || frame_.stage == Frame::Stage::before || frame_.stage == Frame::Stage::done) return;
+    }
+    if (!frame_.direction || frame_.depth) return;
+    const ViewPoint d = arrow_along(*frame_.direction, 0.42);
+    if (d.isZero(0)) return;
+    picture_.arrow(ViewPoint::Zero(), d, palette_.simplex);
+    label(d, "d", palette_.simplex);
+    if (settings_.support_plane && frame_.answered) support_plane(d.normalized());
+  }
+
+  /// Through the newest vertex, across the direction: all of A - B lies on the origin's side of it.
+  void support_plane(const ViewPoint& d) {
+    const FrameVertex* newest = frame_.newest ? vertex(*frame_.newest) : nullptr;
+    if (!newest) return;
+    const ViewPoint w = to_view(newest->w), foot = d * d.dot(w);
+    const double reach = 0.75 * unit();
+    const Colour colour = palette_.frontier;
+    if (meshes_.dimension == 1) {
+      picture_.line(w - ViewPoint(0, reach / 3, 0), w + ViewPoint(0, reach / 3, 0), colour, 1.6, Stroke::dashed);
+    } else if (meshes_.dimension == 2) {
+      const ViewPoint along(-d[1], d[0], 0), middle = (w + foot) / 2;
+      picture_.line(middle - along * 1.6 * reach, middle + along * 1.6 * reach, colour, 1.6, Stroke::dashed);
+    } else {
+      ViewPoint x = d.unitOrthogonal();
+      if (const ViewPoint across = w - foot; across.norm() > 1e-9 * unit()) x = across.normalized();
+      const ViewPoint y = d.cross(x), middle = (w + foot) / 2;
+      const ViewPoint corners[4] = {middle + (x + y) * reach / 1.5, middle + (x - y) * reach / 1.5, middle - (x + y) * reach / 1.5, middle - (x - y) * reach / 1.5};
+      for (int i = 0; i < 4; ++i) picture_.line(corners[i], corners[(i + 1) % 4], colour.with_alpha(0.8), 1.4, Stroke::dashed);
+      picture_.faces.push_back({{corners[0], corners[1], corners[2], corners[3]}, colour.with_alpha(0.05)});
+    }
+  }
+
+  void closest() {
+    if (!frame_.closest || !frame_.faces.empty()) return;
+    const ViewPoint v = to_view(*frame_.closest);
+    if (v.norm() > 1e-6 * unit()) {
+      picture_.lines.push_back({ViewPoint::Zero(), v, palette_.text_soft, 1.6, Stroke::dashed, false, true});
+      picture_.points.push_back({v, palette_.text, 6, Mark::ring, -1});
+      label(v, "v", palette_.text);
+    }
+  }
+
+  void vertices() {
+    for (const auto& [number, v] : frame_.vertices) {
+      const std::string letter = letter_of(number);
+      const bool dropped = std::find(frame_.dropped.begin(), frame_.dropped.end(), number) != frame_.dropped.end();
+      const bool newest = frame_.newest == number;
+      if (dropped && !settings_.dropped) continue;
+      const ViewPoint w = to_view(v.w);
+      const Colour colour = newest ? palette_.newest : dropped ? palette_.dropped : palette_.simplex;
+      picture_.points.push_back({w, colour, newest ? 6.5 : dropped ? 4.0 : letter.empty() ? 3.5 : 6.0, Mark::disc, number});
+      if (settings_.selected == number || settings_.pointed == number) mark_selected(w);
+      if (dropped) label(w, letter.empty() ? "dropped" : letter + " dropped", palette_.dropped);
+      else if (!letter.empty()) label(w, letter, palette_.text);
+      else if (newest) label(w, "w", palette_.newest);
+    }
+  }
+};
+
+}  // namespace
+
+Picture difference_picture(const SceneMeshes& meshes, const Recording& recording, const Frame& frame, const ViewSettings& settings, const Palette& palette,
+                           const Projection& projection) {
+  return DifferencePainter(meshes, recording, frame, settings, palette, projection).paint();
+}
+
+}  // namespace gjkdbg

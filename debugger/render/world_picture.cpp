@@ -1,0 +1,145 @@
+// The world: the bodies, their supports, the answer; of bodies that move where they came from and how fast they are.
+#include <algorithm>
+#include <cmath>
+
+#include "debugger/render/painter.h"
+
+namespace gjkdbg {
+namespace {
+
+class WorldPainter : public Painter {
+ public:
+  using Painter::Painter;
+
+  Picture paint() {
+    grid();
+    for (std::size_t i = 0; i < meshes_.bodies.size(); ++i) {
+      const int n = static_cast<int>(i);
+      if (moves()) swept(n);
+      mesh(moves() ? placed(n) : meshes_.bodies[i], body_colour(n), 0.16, one_d_offset(n));
+    }
+    velocities();
+    supports();
+    answer();
+    return std::move(picture_);
+  }
+
+ private:
+  /// A body's mesh where the frame has it: p goes to R R0^T (p - x0) + x.
+  DisplayMesh placed(int i) const {
+    const auto k = static_cast<std::size_t>(i);
+    const Body& body = recording_.scene.scene.bodies[k];
+    const Frame::Place& place = frame_.places[k];
+    const AnyMatrix turn = place.rotation * body.pose.matrix.transpose();
+    const auto move = [&](const ViewPoint& p) {
+      const AnyVector from = p.head(meshes_.dimension);
+      return to_view(AnyVector(turn * (from - body.pose.position) + place.position));
+    };
+    DisplayMesh mesh = meshes_.bodies[k];
+    for (ViewPoint& p : mesh.points) p = move(p);
+    if (meshes_.dimension == 3)
+      for (ViewPoint& n : mesh.normals) n = turn * n;
+    return mesh;
+  }
+
+  /// Where a moving body was at the beginning, as an outline, and the way of its place.
+  void swept(int i) {
+    const Body& body = recording_.scene.scene.bodies[static_cast<std::size_t>(i)];
+    const Frame::Place& place = frame_.places[static_cast<std::size_t>(i)];
+    if (place.position == body.pose.position && place.rotation == body.pose.matrix) return;
+    const DisplayMesh& began = meshes_.bodies[static_cast<std::size_t>(i)];
+    for (const auto& edge : began.edges)
+      if (edge.crease || edge.face_b < 0)
+        picture_.line(began.points[static_cast<std::size_t>(edge.from)], began.points[static_cast<std::size_t>(edge.to)], body_colour(i).with_alpha(0.3), 1, Stroke::dashed);
+    std::vector<ViewPoint> way{to_view(body.pose.position)};
+    const std::size_t states = frame_.step;
+    for (std::size_t k = 0; k < states; ++k)
+      if (const auto* state = std::get_if<recorded::State>(&recording_.events[k]); state && static_cast<std::size_t>(i) < state->bodies.size())
+        way.push_back(to_view(state->bodies[static_cast<std::size_t>(i)].position));
+    way.push_back(to_view(place.position));
+    for (std::size_t k = 0; k + 1 < way.size(); ++k) picture_.line(way[k], way[k + 1], body_colour(i).with_alpha(0.6), 1.2);
+  }
+
+  void velocities() {
+    if (!moves()) return;
+    double fastest = 0;
+    for (const Frame::Place& place : frame_.places) fastest = std::max(fastest, place.velocity.norm());
+    if (!(fastest > 0)) return;
+    for (std::size_t i = 0; i < frame_.places.size(); ++i) {
+      const ViewPoint v = to_view(frame_.places[i].velocity);
+      if (!(v.norm() > 1e-9 * fastest)) continue;
+      const ViewPoint from = to_view(frame_.places[i].position), tip = from + v * (0.35 * unit() / fastest);
+      picture_.arrow(from, tip, palette_.support);
+      label(tip, "velocity", palette_.support);
+    }
+    if (const auto* e = std::get_if<recorded::ImpulseApplied>(&recording_.events[frame_.step])) impulse(*e);
+    if (const auto* e = std::get_if<recorded::ContactFound>(&recording_.events[frame_.step])) picture_.points.push_back({to_view(e->point), palette_.newest, 6, Mark::square, -1});
+  }
+
+  void impulse(const recorded::ImpulseApplied& e) {
+    const ViewPoint at = to_view(e.point), along = to_view(e.impulse);
+    picture_.points.push_back({at, palette_.newest, 5, Mark::square, -1});
+    if (along.isZero(0)) return;
+    picture_.arrow(at, at + along.stableNormalized() * unit() * 0.3, palette_.newest);
+    label(at + along.stableNormalized() * unit() * 0.3, "impulse", palette_.newest);
+  }
+
+  // --- The world ------------------------------------------------------------------------------------------------
+
+  void supports() {
+    const bool over = frame_.step + 1 == recording_.events.size() && recording_.result.witness_a;  // the witness points speak then
+    for (const auto& [number, v] : frame_.vertices) {
+      const bool newest = frame_.newest == number && !over, in_simplex = std::find(frame_.simplex.begin(), frame_.simplex.end(), number) != frame_.simplex.end();
+      const bool selected = settings_.selected == number || settings_.pointed == number;
+      if (((!newest && !in_simplex) || over) && !selected) continue;
+      const ViewPoint a = to_view(v.a) + one_d_offset(0), b = to_view(v.b) + one_d_offset(1);
+      const Colour colour = newest ? palette_.support : palette_.support.with_alpha(0.45);
+      picture_.points.push_back({a, colour, newest ? 6.0 : 4.0, Mark::disc, number});
+      picture_.points.push_back({b, colour, newest ? 6.0 : 4.0, Mark::square, number});
+      if (selected) mark_selected(a), mark_selected(b), picture_.line(a, b, palette_.text, 1, Stroke::dashed);
+      if (!newest) continue;
+      label(a, "a", palette_.support);
+      label(b, "b", palette_.support, 9, 10);
+      if (!frame_.direction || frame_.depth) continue;
+      const ViewPoint d = arrow_along(*frame_.direction);
+      if (d.isZero(0)) continue;
+      picture_.arrow(a, a + d, palette_.simplex);
+      picture_.arrow(b, b - d, palette_.simplex);
+      label(a + d, "d", palette_.simplex);
+      label(b - d, "-d", palette_.simplex);
+    }
+  }
+
+
+  /// At the last step: the witness points and the normal, and the contact points.
+  void answer() {
+    if (frame_.step + 1 != recording_.events.size()) return;
+    const Result& r = recording_.result;
+    if (!r.witness_a || !r.witness_b) return;
+    const ViewPoint a = to_view(*r.witness_a) + one_d_offset(0), b = to_view(*r.witness_b) + one_d_offset(1);
+    picture_.lines.push_back({a, b, palette_.frontier, 2.5, Stroke::solid, false, true});
+    picture_.points.push_back({a, palette_.body_a, 6, Mark::disc, -1});
+    picture_.points.push_back({b, palette_.body_b, 6, Mark::disc, -1});
+    label(a, "witness a", palette_.body_a, 9, 12);
+    label(b, "witness b", palette_.body_b, 9, -12);
+    if (r.normal) {
+      const ViewPoint tip = a + arrow_along(*r.normal, 0.4);
+      picture_.arrow(a, tip, palette_.frontier);
+      label(tip, "n", palette_.frontier);
+    }
+    if (!r.contacts) return;
+    for (const ContactPoint& c : *r.contacts) {
+      picture_.points.push_back({to_view(c.point_a), palette_.newest, 5, Mark::square, -1});
+      picture_.lines.push_back({to_view(c.point_a), to_view(c.point_b), palette_.newest, 2, Stroke::solid, false, true});
+    }
+  }
+};
+
+}  // namespace
+
+Picture world_picture(const SceneMeshes& meshes, const Recording& recording, const Frame& frame, const ViewSettings& settings, const Palette& palette,
+                      const Projection& projection) {
+  return WorldPainter(meshes, recording, frame, settings, palette, projection).paint();
+}
+
+}  // namespace gjkdbg

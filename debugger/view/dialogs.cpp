@@ -1,0 +1,95 @@
+// What the window asks for: a file, a text to find, a step.
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "debugger/view/app.h"
+#include "debugger/view/explain.h"
+#include "debugger/view/input.h"
+
+namespace gjkdbg {
+
+void App::dialogs() {
+  if (asking_ != Asking::nothing) {
+    asked_ = std::exchange(asking_, Asking::nothing);
+    ImGui::OpenPopup("ask");
+    find_error_.clear();
+    go_to_ = session.is_open() ? static_cast<int>(session.step()) : 0;
+    const std::string suggestion = asked_ == Asking::save ? session.title() + ".scene.json" : "";
+    if (asked_ == Asking::save || asked_ == Asking::open || asked_ == Asking::compare) {
+      std::memset(file_buffer_, 0, sizeof file_buffer_);
+      std::strncpy(file_buffer_, suggestion.c_str(), sizeof file_buffer_ - 1);
+    }
+  }
+  ImGui::SetNextWindowSize({std::min(theme.px(560), ImGui::GetIO().DisplaySize.x - theme.px(20)), 0});
+  if (!ImGui::BeginPopupModal("ask", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoSavedSettings)) return;
+  if (asked_ == Asking::find) find_dialog();
+  else if (asked_ == Asking::go_to) go_to_dialog();
+  else file_dialog();
+  if (key_pressed(Key::escape)) ImGui::CloseCurrentPopup();
+  ImGui::EndPopup();
+}
+
+void App::file_dialog() {
+  const bool saving = asked_ == Asking::save;
+  ImGui::TextUnformatted(saving ? "Save as" : asked_ == Asking::compare ? "Compare with a recording, or a scene" : "Open a scene or a recording");
+  if (saving) {
+    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
+    ImGui::TextWrapped("NAME.scene.json the scene, NAME.recording.json every event, NAME.png or .svg this step, NAME.gif the replay");
+    ImGui::PopStyleColor();
+  }
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1);
+  const bool entered = ImGui::InputText("##file", file_buffer_, sizeof file_buffer_, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (ImGui::Button(saving ? "Save" : asked_ == Asking::compare ? "Compare" : "Open") || entered) {
+    if (saving) save_requested = file_buffer_;
+    else if (asked_ == Asking::compare) compare(file_buffer_);
+    else open(file_buffer_);
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel")) ImGui::CloseCurrentPopup();
+}
+
+void App::find_dialog() {
+  ImGui::TextUnformatted("Find a step");
+  ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
+  ImGui::TextWrapped("A part of what the list shows, or a condition: upper_bound < 1e-3, region.size == 3, status == stalled, any warning");
+  ImGui::PopStyleColor();
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1);
+  const bool entered = ImGui::InputText("##find", find_buffer_, sizeof find_buffer_, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (entered) ImGui::SetKeyboardFocusHere(-1);
+  const bool next = ImGui::Button("Next (F3)") || entered;
+  ImGui::SameLine();
+  const bool previous = ImGui::Button("Previous (Shift-F3)");
+  ImGui::SameLine();
+  if (ImGui::Button("Close")) ImGui::CloseCurrentPopup();
+  if (next || previous) {
+    find_error_.clear();
+    try {
+      if (const auto step = find_text(session, find_buffer_, session.step(), previous)) session.go_to(*step);
+      else find_error_ = "no step has it";
+    } catch (const Error& e) {
+      find_error_ = e.message();
+    }
+  }
+  if (!find_error_.empty()) ImGui::TextColored(vec(theme.palette.newest), "%s", find_error_.c_str());
+  else ImGui::TextColored(vec(theme.palette.text_faint), "step %zu: %s", session.step(), summary(session.recording(), session.step()).c_str());
+}
+
+void App::go_to_dialog() {
+  ImGui::Text("Go to a step, 0 to %zu", session.count() - 1);
+  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+  ImGui::SetNextItemWidth(-1);
+  const bool entered = ImGui::InputInt("##step", &go_to_, 0, 0, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (ImGui::Button("Go") || entered) {
+    session.playing = false;
+    session.go_to(static_cast<std::size_t>(std::clamp<long>(go_to_, 0, static_cast<long>(session.count()) - 1)));
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::SameLine();
+  if (ImGui::Button("Cancel")) ImGui::CloseCurrentPopup();
+}
+
+}  // namespace gjkdbg
