@@ -317,7 +317,7 @@ PseudoCode pseudo_code(const Recording& recording, std::size_t step) {
     else code = {recording.settings.name == MethodName::root_finding ? "Root finding" : "Conservative advancement", {"t = 0", "repeat", "  d, n = GJK(A at t, B at t)", "  if d within tolerance: hit", "  bound = closing speed along n", "  if bound <= 0: miss", recording.settings.name == MethodName::root_finding ? "  t = where the gap along n closes" : "  t = t + d / bound"}, -1};
     const bool ray = recording.settings.name == MethodName::ray_cast;
     if (std::holds_alternative<recorded::CastBegan>(event)) code.current = 0;
-    else if (std::holds_alternative<recorded::CastAdvanced>(event)) code.current = ray ? 5 : 6;
+    else if (const auto* e = std::get_if<recorded::CastAdvanced>(&event)) code.current = ray ? 5 : e->bound <= 0 ? 5 : 6;
     else code.current = ray ? (std::get<recorded::CastEnded>(event).status == CastStatus::miss ? 4 : 7) : std::get<recorded::CastEnded>(event).status == CastStatus::miss ? 5 : 3;
     return code;
   }

@@ -24,6 +24,8 @@ std::optional<std::size_t> last_of(const Session& s) {
 
 /// What runs at a step, for people.
 const char* phase_name(const Event& event, const Frame& frame) {
+  if (const auto* query = std::get_if<recorded::SupportQueried>(&event); query && query->phase == Phase::cast) return "ray";
+  if (event.index() >= Event(recorded::CastBegan{}).index() && !std::holds_alternative<recorded::Warning>(event)) return "motion,";
   if (phase_of(event) == 1) return "EPA";
   if (frame.stage == Frame::Stage::mpr || frame.mpr_status) return "MPR";
   if (frame.stage == Frame::Stage::sat || frame.sat_status) return "SAT";
@@ -36,7 +38,8 @@ void heading(App& app) {
   const Explanation e = explain(session.recording(), session.frame());
   ImGui::PushFont(theme.small);
   const char* phase = phase_name(session.recording().events[session.step()], session.frame());
-  ImGui::TextColored(vec(theme.palette.text_faint), "Step %zu of %zu  \xC2\xB7  %s iteration %d", session.step(), session.count() - 1, phase, session.frame().iteration);
+  const std::string time = session.frame().time ? "  \xC2\xB7  time " + short_number(*session.frame().time) : "";
+  ImGui::TextColored(vec(theme.palette.text_faint), "Step %zu of %zu  \xC2\xB7  %s iteration %d%s", session.step(), session.count() - 1, phase, session.frame().iteration, time.c_str());
   ImGui::PopFont();
   ImGui::PushFont(theme.title);
   ImGui::TextWrapped("%s", e.title.c_str());
@@ -220,6 +223,9 @@ void answer(App& app) {
   const Theme& theme = app.theme;
   const Result& r = app.session.recording().result;
   section(theme, "RESULT");
+  if (r.time) number_row(theme, app.session.scene().scene.query == Query::cast ? "apart until" : "time", short_number(*r.time), theme.palette.text);
+  if (r.touching_at) number_row(theme, "touching at", short_number(*r.touching_at), theme.palette.text);
+  if (r.energy) number_row(theme, "energy", short_number(*r.energy), theme.palette.text);
   number_row(theme, "intersecting", r.intersecting ? "yes" : "no", r.intersecting ? theme.palette.newest : theme.palette.support);
   if (r.signed_distance) number_row(app, "signed distance", short_number(*r.signed_distance), theme.palette.text, last_of<recorded::GjkEnded, recorded::EpaEnded, recorded::MprEnded, recorded::SatEnded>(app.session));
   if (r.normal) number_row(theme, "normal", short_vector(*r.normal), theme.palette.text);

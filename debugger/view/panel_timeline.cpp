@@ -1,6 +1,7 @@
 // Below the views: transport, scrubber, event list, bounds.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "debugger/view/app.h"
 #include "debugger/view/explain.h"
@@ -66,9 +67,45 @@ void transport(App& app) {
   if (ImGui::Combo("##speed", &at, speeds, 6)) s.speed = std::pow(2, at - 2);
   ImGui::SameLine();
   ImGui::Checkbox("loop", &s.loop);
+  if (s.scene().scene.query == Query::simulate && ImGui::GetItemRectMax().x + theme.px(110) + count_width < ImGui::GetWindowPos().x + right) {
+    ImGui::SameLine();
+    ImGui::Checkbox("real time", &s.real_time);
+  }
   ImGui::SameLine(right - count_width);
   ImGui::TextUnformatted(count.c_str());
 }
+
+namespace {
+
+/// The time of a moving scene over its events: a mark where it moves on.
+void time_axis(App& app) {
+  const Session& s = app.session;
+  const Theme& theme = app.theme;
+  const ImVec2 at = ImGui::GetCursorScreenPos(), size{ImGui::GetContentRegionAvail().x, theme.px(15)};
+  ImGui::Dummy(size);
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const float cell = size.x / static_cast<float>(s.count());
+  float free = at.x;
+  double last = -1;
+  for (std::size_t i = 0; i < s.count(); ++i) {
+    std::optional<double> time;
+    const Event& event = s.recording().events[i];
+    if (const auto* e = std::get_if<recorded::State>(&event)) time = e->time;
+    if (const auto* e = std::get_if<recorded::CastAdvanced>(&event)) time = e->time;
+    if (const auto* e = std::get_if<recorded::CastEnded>(&event)) time = e->time;
+    if (!time || *time == last) continue;
+    last = *time;
+    const float x = at.x + (static_cast<float>(i) + 0.5f) * cell;
+    if (x < free) continue;
+    const std::string text = "t " + short_number(*time);
+    const float width = theme.small->CalcTextSizeA(theme.small->FontSize * 0.85f, 1000, 0, text.c_str()).x;
+    draw->AddLine({x, at.y + theme.px(2)}, {x, at.y + size.y + theme.px(4)}, packed(theme.palette.accent), 1);
+    if (x + width + theme.px(4) < at.x + size.x) draw->AddText(theme.small, theme.small->FontSize * 0.85f, {x + theme.px(3), at.y}, packed(theme.palette.text_faint), text.c_str());
+    free = x + width + theme.px(12);
+  }
+}
+
+}  // namespace
 
 /// Iterations as bands, events as ticks; the pointer seeks.
 void scrubber(App& app) {
@@ -280,12 +317,63 @@ void bounds_plot(App& app, float width, float height) {
   draw->AddLine({x_of(s.step()), from.y}, {x_of(s.step()), to.y}, packed(p.text.with_alpha(0.6)), 1);
 }
 
+/// A moving scene: over time, the distance of the pair looked at (cast), or the energy (simulate).
+void motion_plot(App& app, float width, float height) {
+  Session& s = app.session;
+  const Theme& theme = app.theme;
+  const Palette& p = theme.palette;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const bool cast = s.scene().scene.query == Query::cast;
+  draw->AddRectFilled(at, {at.x + width, at.y + height}, packed(p.view), theme.px(6));
+  draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(10), at.y + theme.px(6)}, packed(p.text_faint), cast ? "distance over time, each advance" : "energy over time");
+  ImGui::Dummy({width, height});
+  struct Point {
+    double time, value;
+    int series;
+  };
+  std::vector<Point> points;
+  for (const Event& event : s.recording().events) {
+    if (const auto* e = std::get_if<recorded::CastAdvanced>(&event); e && cast) points.push_back({e->time, e->distance, e->pair[0] * 1000 + e->pair[1]});
+    if (const auto* e = std::get_if<recorded::State>(&event); e && !cast) points.push_back({e->time, e->energy, 0});
+  }
+  if (points.empty()) return;
+  double low = cast ? 0 : points[0].value, high = points[0].value, first = cast ? 0 : points[0].time, last = cast ? 1 : points[0].time;
+  for (const Point& x : points) low = std::min(low, x.value), high = std::max(high, x.value), last = std::max(last, x.time);
+  if (!(high > low)) high = low + std::max(1e-12, std::abs(low) * 1e-3);
+  const ImVec2 from{at.x + theme.px(64), at.y + theme.px(28)}, to{at.x + width - theme.px(14), at.y + height - theme.px(22)};
+  const auto place = [&](const Point& x) {
+    return ImVec2{from.x + static_cast<float>((x.time - first) / std::max(last - first, 1e-300)) * (to.x - from.x), to.y - static_cast<float>((x.value - low) / (high - low)) * (to.y - from.y)};
+  };
+  for (const double value : {low, high}) {
+    const float y = place({first, value, 0}).y;
+    draw->AddLine({from.x, y}, {to.x, y}, packed(p.field), 1);
+    draw->AddText(theme.small, theme.small->FontSize * 0.85f, {at.x + theme.px(8), y - theme.px(6)}, packed(p.text_faint), short_number(value).c_str());
+  }
+  draw->AddText(theme.small, theme.small->FontSize * 0.85f, {from.x, to.y + theme.px(4)}, packed(p.text_faint), ("t " + short_number(first)).c_str());
+  const std::string end = short_number(last);
+  draw->AddText(theme.small, theme.small->FontSize * 0.85f, {to.x - theme.px(7) * static_cast<float>(end.size()), to.y + theme.px(4)}, packed(p.text_faint), end.c_str());
+  std::map<int, ImVec2> before;
+  for (const Point& x : points) {
+    const ImVec2 here = place(x);
+    const Colour colour = !cast || x.series == s.frame().pair[0] * 1000 + s.frame().pair[1] ? p.simplex : p.dropped;
+    if (const auto found = before.find(x.series); found != before.end() && here.x >= found->second.x) draw->AddLine(found->second, here, packed(colour), theme.px(1.6f));
+    if (cast) draw->AddCircleFilled(here, theme.px(2.5f), packed(colour));
+    before[x.series] = here;
+  }
+  if (!s.frame().time) return;
+  const float x = place({*s.frame().time, low, 0}).x;
+  draw->AddLine({x, from.y}, {x, to.y}, packed(p.text.with_alpha(0.6)), 1);
+}
+
 }  // namespace
 
 void timeline_panel(App& app, const Area& area) {
   if (!begin_area("timeline", area)) return ImGui::EndChild();
   transport(app);
   ImGui::Dummy({0, app.theme.px(4)});
+  const bool moves = app.session.scene().scene.motion.has_value();
+  if (moves) time_axis(app);
   scrubber(app);
   legend(app);
   const ImVec2 left = ImGui::GetContentRegionAvail();
@@ -294,7 +382,7 @@ void timeline_panel(App& app, const Area& area) {
     event_list(app, list, left.y);
     if (list < left.x) {
       ImGui::SameLine(0, app.theme.px(10));
-      bounds_plot(app, left.x - list - app.theme.px(10), left.y);
+      (moves ? motion_plot : bounds_plot)(app, left.x - list - app.theme.px(10), left.y);
     }
   }
   ImGui::EndChild();

@@ -170,8 +170,40 @@ void Session::toggle_play() {
   if (playing && step_ + 1 >= count()) step_ = loop_from.value_or(0);
 }
 
+/// To the last state whose time has come.
+bool Session::tick_by_the_clock(double seconds) {
+  const std::size_t from = step_;
+  double now = 0;
+  for (std::size_t i = step_ + 1; i-- > 0;)
+    if (const auto* state = std::get_if<recorded::State>(&recording_.events[i])) {
+      now = state->time;
+      break;
+    }
+  waited_ += seconds * speed;
+  std::size_t next = step_;
+  for (std::size_t i = step_ + 1; i < count(); ++i) {
+    const auto* state = std::get_if<recorded::State>(&recording_.events[i]);
+    if (state && state->time > now + waited_) break;
+    if (state) next = i;
+    if (stops_at(i)) {
+      step_ = i, playing = false;
+      return true;
+    }
+  }
+  if (next == step_) {
+    bool more = false;
+    for (std::size_t i = step_ + 1; i < count() && !more; ++i) more = std::holds_alternative<recorded::State>(recording_.events[i]);
+    if (!more) step_ = loop ? loop_from.value_or(0) : count() - 1, playing = loop, waited_ = 0;
+    return step_ != from;
+  }
+  waited_ -= std::get<recorded::State>(recording_.events[next]).time - now;
+  step_ = next;
+  return true;
+}
+
 bool Session::tick(double seconds) {
   if (!playing) return false;
+  if (plays_by_the_clock()) return tick_by_the_clock(seconds);
   waited_ += seconds * speed * 4;
   bool moved = false;
   while (waited_ >= 1 && playing) {

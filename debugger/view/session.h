@@ -43,7 +43,9 @@ class Session {
   void step_phase(int direction);
 
   bool playing = false;
-  double speed = 1;  ///< times four events a second
+  double speed = 1;  ///< times four events a second; in real time, times as fast as life
+  bool real_time = true;  ///< of a simulation: play its states by the clock instead of event by event
+  bool plays_by_the_clock() const { return real_time && recording_.scene.scene.query == Query::simulate; }
   bool loop = false;
   std::optional<std::size_t> loop_from, loop_to;
   void toggle_play();
@@ -85,6 +87,7 @@ class Session {
 
  private:
   void take(Recording recording);
+  bool tick_by_the_clock(double seconds);
   void keep_place(const Event& at, std::size_t occurrence);
   void solve_other();
 
