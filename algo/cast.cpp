@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algo/cast_meeting.h"
 #include "algo/motion.h"
 #include "algo/ray_cast.h"
 #include "shapes/world_support.h"
@@ -13,31 +14,11 @@ namespace {
 
 constexpr int most_responses = 64;
 
-/// A pair that still may meet.
-struct Pair {
-  int first, second;
-  bool open = true;
-};
-
-/// What is known of a pair at a time.
-struct Gap {
-  double distance = 0;
-  AnyVector normal, witness_a, witness_b;
-  double bound = 0;  ///< how fast it closes at most
-};
-
-struct Meeting {
-  CastStatus status = CastStatus::miss;
-  double time = 0;  ///< since the beginning of the stretch
-  int first = -1, second = -1;
-  Gap gap;
-};
-
 class Caster {
  public:
   Caster(const Scene& scene, const Settings& settings, TraceSink* trace)
       : scene_(scene), settings_(settings), inner_(static_settings(settings)), trace_(trace), dimension_(scene.dimension), bodies_(scene.bodies) {
-    for (const Body& body : bodies_) reach_.push_back(reach_of(body.shape, dimension_));
+    for (const Body& body : bodies_) reach_.push_back(reach_of(body.shape, dimension_)), parts_.push_back(convex_parts(body.shape));
     double size = 0;
     for (const double r : reach_) size = std::max(size, r);
     for (const Body& body : bodies_) size = std::max(size, (body.pose.position - bodies_[0].pose.position).norm());
@@ -59,14 +40,16 @@ class Caster {
 
   void find_pairs() {
     pairs_.clear();
+    std::vector<Edge> edges;
     const int n = static_cast<int>(bodies_.size());
     for (int i = 0; i < n; ++i)
       for (int j = i + 1; j < n; ++j)
-        if (moves_against(i, j)) pairs_.push_back({i, j});
-    if (!trace_) return;
-    std::vector<Edge> edges;
-    for (const Pair& p : pairs_) edges.push_back({p.first, p.second});
-    (*trace_)(world::CastBegan{edges});
+        if (moves_against(i, j)) {
+          edges.push_back({i, j});
+          for (const Shape& a : parts_[static_cast<std::size_t>(i)])
+            for (const Shape& b : parts_[static_cast<std::size_t>(j)]) pairs_.push_back({i, j, &a, &b});
+        }
+    if (trace_) (*trace_)(world::CastBegan{edges});
   }
 
   const AnyVector& velocity(int i) const { return bodies_[static_cast<std::size_t>(i)].motion->velocity; }
@@ -87,6 +70,10 @@ class Caster {
       const Pair* nearest = nullptr;
       for (Pair& p : pairs_) {
         if (!p.open) continue;
+        if (time == 0 && separated_by_a_wall(p)) {
+          p.open = false;
+          continue;
+        }
         const Gap gap = gap_of(p, time);
         if (gap.distance <= target_) {
           // A pair that only slides along another does not meet it.
@@ -94,7 +81,7 @@ class Caster {
             p.open = false;
             continue;
           }
-          meeting = {gap.distance <= 0 && time == 0 && start == 0 ? CastStatus::initially_overlapping : CastStatus::hit, time, p.first, p.second, gap};
+          meeting = {gap.distance <= 0 && time == 0 && start == 0 ? CastStatus::initially_overlapping : CastStatus::hit, time, p, gap};
           return meeting;
         }
         if (gap.bound <= sliding_ * speed(p)) {
@@ -105,13 +92,29 @@ class Caster {
         if (safe < next) next = safe, nearest = &p;
       }
       if (!nearest || !(next > time)) {
-        if (nearest) return {CastStatus::hit, time, nearest->first, nearest->second, gap_of(*nearest, time)};  // time no longer advances: rounding
+        if (nearest) return {CastStatus::hit, time, *nearest, gap_of(*nearest, time)};  // time no longer advances: rounding
         meeting.status = CastStatus::miss, meeting.time = 1 - start;
         return meeting;
       }
       time = next;
     }
-    return {CastStatus::iteration_limit, time, -1, -1, {}};
+    return {CastStatus::iteration_limit, time, {-1, -1, nullptr, nullptr}, {}};
+  }
+
+  /// A body that slides along a wall is never nearer to it than it is. What lies behind the same plane it cannot meet either: the next of two
+  /// flush tiles, the next triangle of a flat mesh. The nearest points would say otherwise: seen from just above, the tile ahead is met at its
+  /// inner edge (a "ghost collision").
+  bool separated_by_a_wall(const Pair& p) {
+    for (const Wall& wall : axes_) {
+      if (wall.body != p.first && wall.body != p.second) continue;
+      const AnyVector n = wall.body == p.first ? wall.normal : AnyVector(-wall.normal);
+      if (closing(p, n) > sliding_ * speed(p)) continue;
+      const Scene two = pair_at(p, 0);
+      const WorldSupport a(two.bodies[0], dimension_), b(two.bodies[1], dimension_);
+      supports_ += 2;
+      if (n.dot(b(-n, true) - a(n, true)) > 0) return true;
+    }
+    return false;
   }
 
   double speed(const Pair& p) const {
@@ -126,7 +129,8 @@ class Caster {
     two.dimension = dimension_;
     two.query = Query::penetration;
     for (const int i : {p.first, p.second}) {
-      two.bodies.push_back(moved(bodies_[static_cast<std::size_t>(i)], time, dimension_));
+      const Body& body = bodies_[static_cast<std::size_t>(i)];
+      two.bodies.push_back(moved(Body{body.name, i == p.first ? *p.shape_a : *p.shape_b, body.pose, body.motion}, time, dimension_));
       two.bodies.back().motion.reset();
     }
     return two;
@@ -218,7 +222,7 @@ class Caster {
     m.status = found.status;
     if (found.status == CastStatus::initially_overlapping && start_ > 0) m.status = CastStatus::hit;
     m.time = static_cast<double>(found.time) * (1 - start_);
-    m.first = p.first, m.second = p.second;
+    m.pair = p;
     if (m.status == CastStatus::miss) return m;
     // The places and the normal at that time, by GJK: the ray's own are as exact as its last plane.
     const Result r = solve_static(pair_at(p, m.time), inner_, nullptr, numbers_);
@@ -232,23 +236,19 @@ class Caster {
   void respond(const Meeting& first, Response response) {
     Meeting meeting = first;
     double now = 0;
-    struct Wall {
-      int body;
-      AnyVector normal;  ///< into the wall
-    };
     std::vector<Wall> walls;
     for (int k = 0; k < most_responses; ++k) {
       if (meeting.time > 0) walls.clear();
       for (Body& body : bodies_) body = moved(body, meeting.time, dimension_);
       now += meeting.time;
       const AnyVector& n = meeting.gap.normal;
-      const Motion &a = *bodies_[static_cast<std::size_t>(meeting.first)].motion, &b = *bodies_[static_cast<std::size_t>(meeting.second)].motion;
+      const Motion &a = *bodies_[static_cast<std::size_t>(meeting.pair.first)].motion, &b = *bodies_[static_cast<std::size_t>(meeting.pair.second)].motion;
       const bool moves_a = !a.velocity.isZero(0), moves_b = !b.velocity.isZero(0);
       const double approach = (a.velocity - b.velocity).dot(n), e = response == Response::bounce ? std::max(a.restitution, b.restitution) : 0;
       const double change = (1 + e) * std::max(0.0, approach), share = moves_a && moves_b ? 0.5 : 1;
       const std::vector<AnyVector> before{a.velocity, b.velocity};
-      if (moves_a) turn_off(meeting.first, n, change * share, walls, response);
-      if (moves_b) turn_off(meeting.second, -n, change * share, walls, response);
+      if (moves_a) turn_off(meeting.pair.first, n, change * share, walls, response);
+      if (moves_b) turn_off(meeting.pair.second, -n, change * share, walls, response);
       emit_response(now, meeting, before);
       if (at_rest()) {
         last_ = meeting, last_.status = CastStatus::at_rest, last_.time = now;
@@ -273,12 +273,11 @@ class Caster {
   }
 
   /// Takes `change` of the velocity along n (into the wall) off. Caught by two walls at once, the body keeps what leads along both, if anything.
-  template <class Walls>
-  void turn_off(int i, const AnyVector& n, double change, Walls& walls, Response response) {
+  void turn_off(int i, const AnyVector& n, double change, std::vector<Wall>& walls, Response response) {
     Motion& m = *bodies_[static_cast<std::size_t>(i)].motion;
     m.velocity -= change * n;
     if (response == Response::slide) {
-      for (const auto& wall : walls) {
+      for (const Wall& wall : walls) {
         if (wall.body != i || !(m.velocity.dot(wall.normal) > 0)) continue;
         if (dimension_ == 3) {
           const Eigen::Vector3d crease = Eigen::Vector3d(n).cross(Eigen::Vector3d(wall.normal)).stableNormalized(), v = m.velocity;
@@ -289,13 +288,14 @@ class Caster {
       }
     }
     walls.push_back({i, n});
+    axes_.push_back({i, n});
   }
 
   void emit_response(double now, const Meeting& m, const std::vector<AnyVector>& before) {
     responded_ = true;
     if (!trace_) return;
-    const std::vector<AnyVector> after{velocity(m.first), velocity(m.second)};
-    (*trace_)(world::ImpulseApplied{now, {m.first, m.second}, m.gap.witness_a, m.gap.normal, AnyVector(after[1] - before[1]), before, after});
+    const std::vector<AnyVector> after{velocity(m.pair.first), velocity(m.pair.second)};
+    (*trace_)(world::ImpulseApplied{now, {m.pair.first, m.pair.second}, m.gap.witness_a, m.gap.normal, AnyVector(after[1] - before[1]), before, after});
     state(now);
   }
 
@@ -323,7 +323,7 @@ class Caster {
 
   /// A time at which the pair certainly touches: a little later, and if that is too little, a little more.
   std::optional<double> surely_touching(const Meeting& m) {
-    const Pair p{m.first, m.second};
+    const Pair& p = m.pair;
     if (m.gap.distance <= 0) return m.time;
     Settings yes_no = inner_;
     double step = std::max(2 * m.gap.distance / std::max(m.gap.bound, 1e-300), 4e-16);
@@ -338,7 +338,7 @@ class Caster {
   void ended(const Meeting& m) {
     if (!trace_) return;
     std::vector<int> pair;
-    if (m.first >= 0 && m.status != CastStatus::miss) pair = {m.first, m.second};
+    if (m.pair.first >= 0 && m.status != CastStatus::miss) pair = {m.pair.first, m.pair.second};
     (*trace_)(world::CastEnded{iterations_, m.status, m.time, pair});
   }
 
@@ -350,7 +350,7 @@ class Caster {
     r.time = first_.time;
     r.touching_at = touching_at_;
     if (r.intersecting) {
-      r.pair = {first_.first, first_.second};
+      r.pair = {first_.pair.first, first_.pair.second};
       r.normal = first_.gap.normal, r.witness_a = first_.gap.witness_a, r.witness_b = first_.gap.witness_b;
     }
     if (responded_) r.bodies = states();
@@ -368,7 +368,9 @@ class Caster {
   std::vector<Body> bodies_;
   std::vector<double> reach_;
   double target_ = 0, start_ = 0;
+  std::vector<std::vector<Shape>> parts_;
   std::vector<Pair> pairs_;
+  std::vector<Wall> axes_;  ///< of all responses so far
   TraceNumbers numbers_;
   int iterations_ = 0, supports_ = 0;
   bool responded_ = false;

@@ -38,6 +38,17 @@ Body moved(const Body& body, double time, int dimension) {
   return at;
 }
 
+std::vector<Shape> convex_parts(const Shape& shape) {
+  const Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
+  if (!mesh) return {shape};
+  std::vector<Shape> parts;
+  for (const auto& t : mesh->triangles) {
+    PointSet triangle{PointSetKind::triangle, {mesh->points[t[0]], mesh->points[t[1]], mesh->points[t[2]]}, {}};
+    parts.push_back({std::move(triangle), shape.margin});
+  }
+  return parts;
+}
+
 namespace {
 
 template <int D>

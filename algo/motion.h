@@ -18,6 +18,9 @@ std::vector<double> orientation_of(const AnyMatrix& rotation);
 /// The body moved on by its velocities for a time, turning about its pose's position. A body without motion stays.
 Body moved(const Body& body, double time, int dimension);
 
+/// A mesh is its triangles, each a convex set of its own; anything else is itself.
+std::vector<Shape> convex_parts(const Shape& shape);
+
 /// How far the body reaches from its pose's position.
 double reach_of(const Shape& shape, int dimension);
 

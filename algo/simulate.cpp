@@ -49,7 +49,7 @@ class Simulation {
   Simulation(const Scene& scene, const Settings& settings, TraceSink* trace)
       : scene_(scene), settings_(static_settings(settings)), trace_(trace), dimension_(scene.dimension), h_(scene.motion->time_step),
         gravity_(in_space(scene.motion->gravity)) {
-    for (const Body& body : scene.bodies) bodies_.push_back(make(body));
+    for (const Body& body : scene.bodies) bodies_.push_back(make(body)), parts_.push_back(convex_parts(body.shape));
   }
 
   Result run() {
@@ -208,10 +208,17 @@ class Simulation {
   }
 
   void contacts_of(std::size_t i, std::size_t j) {
+    const Body a = placed(i), b = placed(j);
+    for (const Shape& part_a : parts_[i])
+      for (const Shape& part_b : parts_[j]) contacts_of(i, j, Body{a.name, part_a, a.pose}, Body{b.name, part_b, b.pose});
+  }
+
+  /// A mesh has a part for each triangle.
+  void contacts_of(std::size_t i, std::size_t j, const Body& part_a, const Body& part_b) {
     Scene two;
     two.dimension = dimension_;
     two.query = Query::contact;
-    two.bodies = {placed(i), placed(j)};
+    two.bodies = {part_a, part_b};
     const Result r = solve_static(two, settings_, trace_, numbers_);
     numbers_.next_run();
     supports_ += r.support_calls, iterations_ += r.iterations;
@@ -356,6 +363,7 @@ class Simulation {
   const double h_;
   const V3 gravity_;
   std::vector<RigidBody> bodies_;
+  std::vector<std::vector<Shape>> parts_;
   std::vector<Contact> contacts_;
   std::vector<bool> touched_;
   TraceNumbers numbers_;

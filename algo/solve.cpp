@@ -7,6 +7,7 @@
 
 #include "algo/cast.h"
 #include "algo/contact.h"
+#include "algo/motion.h"
 #include "algo/simulate.h"
 #include "algo/solve_pair.h"
 #include "shapes/error.h"
@@ -46,18 +47,6 @@ Result solve_convex(const Shape& shape_a, const Shape& shape_b, const Scene& sce
     WorldTrace<D, S> trace(frame, numbers, sink);
     return PairSolver<D, S, WorldTrace<D, S>>(a, b, pose_a, pose_b, scale, settings, workspace, trace, fa, fb).run(scene.query);
   }
-}
-
-/// A mesh is its triangles, each a convex set of its own; anything else is itself.
-std::vector<Shape> convex_parts(const Shape& shape) {
-  const Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
-  if (!mesh) return {shape};
-  std::vector<Shape> parts;
-  for (const auto& t : mesh->triangles) {
-    PointSet triangle{PointSetKind::triangle, {mesh->points[t[0]], mesh->points[t[1]], mesh->points[t[2]]}, {}};
-    parts.push_back({std::move(triangle), shape.margin});
-  }
-  return parts;
 }
 
 bool nearer(const Result& x, const Result& y) {

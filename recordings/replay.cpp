@@ -164,7 +164,7 @@ struct Apply {
         const double length = std::hypot(std::hypot(q.wxyz[0], q.wxyz[1]), std::hypot(q.wxyz[2], q.wxyz[3]));
         if (std::abs(length - 1) < 1e-6) rotation = resolve(q, 3).matrix.topLeftCorner(b.position.size(), b.position.size());
       }
-      frame.places.push_back({b.position, rotation, b.velocity});
+      frame.places.push_back({b.position, rotation, b.velocity, b.angular_velocity});
     }
     frame.time = e.time;
     frame.stage = Frame::Stage::done;
@@ -190,7 +190,9 @@ struct Apply {
       Body body = scene.bodies[i];
       if (i < frame.places.size() && from > 0) body.pose.position = frame.places[i].position, body.pose.matrix = frame.places[i].rotation, body.motion->velocity = frame.places[i].velocity;
       const Body at = moved(body, time - from, scene.dimension);
-      places.push_back({at.pose.position, at.pose.matrix, at.motion ? at.motion->velocity : AnyVector(AnyVector::Zero(scene.dimension))});
+      Frame::Place place{at.pose.position, at.pose.matrix, AnyVector::Zero(scene.dimension), {}};
+      if (at.motion) place.velocity = at.motion->velocity, place.spin.assign(at.motion->angular_velocity.begin(), at.motion->angular_velocity.end());
+      places.push_back(std::move(place));
     }
     frame.places = std::move(places);
     frame.time = time;

@@ -69,6 +69,7 @@ struct Frame {
     AnyVector position;
     AnyMatrix rotation;
     AnyVector velocity;
+    std::vector<double> spin;  ///< radians per unit of time: 3 numbers in space, 1 in the plane
     bool operator==(const Place&) const = default;
   };
   std::vector<Place> places;

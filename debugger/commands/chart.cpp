@@ -72,6 +72,10 @@ struct ChartCommand {
     for (const PricePoint& p : chart.price)
       std::cout << "  " << std::left << std::setw(42) << p.what << std::right << std::setw(8) << std::fixed << std::setprecision(0) << p.nanoseconds << std::defaultfloat << std::setprecision(3) << " ns, "
                 << p.supports << " supports, worst error " << std::setprecision(2) << p.worst_error << "\n";
+    if (!chart.motion.empty()) std::cout << "Motion: casts by tolerance (error: how early), integrators by step (error: energy)\n";
+    for (const MotionPoint& p : chart.motion)
+      std::cout << "  " << std::left << std::setw(16) << p.family << std::setw(26) << p.method << std::setw(8) << std::defaultfloat << p.parameter << std::right << std::setw(9) << std::fixed << std::setprecision(0)
+                << p.nanoseconds << std::defaultfloat << std::setprecision(2) << " ns, worst error " << p.worst_error << (p.late > 0 ? ", " + std::to_string(p.late) + " late" : "") << "\n";
   }
 };
 

@@ -117,6 +117,7 @@ Chart make_chart(bool quick, const std::function<bool(double)>& progress) {
   }
   const std::vector<PriceRow> rows = price_rows(count);
   for (const PriceRow& row : rows) chart.price.push_back(price_of(rows, row, rounds));
+  chart.motion = motion_points(quick);
   progress(1);
   return chart;
 }
@@ -165,6 +166,13 @@ std::string chart_json(const Chart& chart) {
     const PricePoint& p = chart.price[i];
     out += (i > 0 ? "," : "") + std::string("\n {\"what\": \"") + p.what + "\"";
     field("nanoseconds", p.nanoseconds), field("worst_error", p.worst_error), field("supports", p.supports);
+    out += "}";
+  }
+  out += "],\n\"motion\": [";
+  for (std::size_t i = 0; i < chart.motion.size(); ++i) {
+    const MotionPoint& p = chart.motion[i];
+    out += (i > 0 ? "," : "") + std::string("\n {\"family\": \"") + p.family + "\", \"method\": \"" + p.method + "\"";
+    field("parameter", p.parameter), field("nanoseconds", p.nanoseconds), field("worst_error", p.worst_error), field("late", p.late), field("supports", p.queries);
     out += "}";
   }
   return out + "]}\n";

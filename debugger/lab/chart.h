@@ -8,6 +8,8 @@
 #include "debugger/lab/families.h"
 #include "debugger/lab/measure.h"
 
+#include "debugger/lab/motion_chart.h"
+
 namespace gjkdbg {
 
 /// A method at a tolerance on a family.
@@ -37,6 +39,7 @@ struct PricePoint {
 struct Chart {
   std::vector<ChartPanel> panels;
   std::vector<PricePoint> price;
+  std::vector<MotionPoint> motion;
 };
 
 /// `progress(share done)` returns false to stop: what was measured until then is returned.

@@ -60,8 +60,32 @@ class WorldPainter : public Painter {
     for (std::size_t k = 0; k + 1 < way.size(); ++k) picture_.line(way[k], way[k + 1], body_colour(i).with_alpha(0.6), 1.2);
   }
 
+  /// Angular velocities: in space an arrow along the axis, in the plane an arc the way the body turns.
+  void spins() {
+    double fastest = 0;
+    for (const Frame::Place& place : frame_.places)
+      for (const double x : place.spin) fastest = std::max(fastest, std::abs(x));
+    if (!(fastest > 0)) return;
+    for (const Frame::Place& place : frame_.places) {
+      const ViewPoint from = to_view(place.position);
+      if (place.spin.size() == 3) {
+        const ViewPoint w(place.spin[0], place.spin[1], place.spin[2]);
+        if (!(w.norm() > 1e-6 * fastest)) continue;
+        const ViewPoint tip = from + w * (0.3 * unit() / fastest);
+        picture_.arrow(from, tip, palette_.chosen);
+        label(tip, "turning", palette_.chosen);
+      } else if (place.spin.size() == 1 && std::abs(place.spin[0]) > 1e-6 * fastest) {
+        const double sweep = place.spin[0] / fastest * 1.5, r = 0.14 * unit();
+        const auto on_arc = [&](double share) { return ViewPoint(from + r * ViewPoint(std::cos(share * sweep), std::sin(share * sweep), 0)); };
+        for (int i = 0; i < 11; ++i) picture_.line(on_arc(i / 12.0), on_arc((i + 1) / 12.0), palette_.chosen, 2);
+        picture_.arrow(on_arc(11 / 12.0), on_arc(1), palette_.chosen, 2);
+      }
+    }
+  }
+
   void velocities() {
     if (!moves()) return;
+    spins();
     double fastest = 0;
     for (const Frame::Place& place : frame_.places) fastest = std::max(fastest, place.velocity.norm());
     if (!(fastest > 0)) return;

@@ -91,6 +91,8 @@ void step_panel(App& app, const Area& area);
 void timeline_panel(App& app, const Area& area);
 void transport(App& app);
 void scrubber(App& app);
+void bounds_plot(App& app, float width, float height);
+void motion_plot(App& app, float width, float height);
 /// The two views, side by side or stacked, or the one chosen.
 void view_panels(App& app, const Area& area, bool interactive);
 

@@ -68,11 +68,23 @@ std::string scene_as_cpp(const SceneFile& file) {
   static const char* const queries[] = {"intersect", "distance", "penetration", "contact", "cast", "simulate"};
   std::string out = "// #include \"algo/solve.h\"; link gjkdbg::algo\nusing namespace gjkdbg;\nScene scene;\nscene.name = \"" + scene.name + "\";\nscene.dimension = " +
                     std::to_string(scene.dimension) + ";\nscene.query = Query::" + queries[static_cast<std::size_t>(scene.query)] + ";\nscene.bodies.resize(" + std::to_string(scene.bodies.size()) + ");\n";
+  if (scene.motion) {
+    const SceneMotion& m = *scene.motion;
+    static const char* const responses[] = {"stop", "slide", "bounce"};
+    static const char* const integrators[] = {"explicit_euler", "semi_implicit_euler", "rk4"};
+    out += std::string("scene.motion = SceneMotion{Response::") + responses[static_cast<std::size_t>(m.response)] + ", " + vector(m.gravity) + ", " + number(m.time_step) + ", " + std::to_string(m.steps) +
+           ", Integrator::" + integrators[static_cast<std::size_t>(m.integrator)] + "};\n";
+  }
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     const std::string it = "scene.bodies[" + std::to_string(i) + "]";
     out += it + ".name = \"" + body.name + "\";\n" + it + ".shape = " + shape(body.shape) + ";\n" + it + ".pose = identity_pose(" + std::to_string(scene.dimension) + ");\n" + it + ".pose.position = " +
            vector(body.pose.position) + ";\n";
+    if (body.motion) {
+      const Motion& m = *body.motion;
+      out += it + ".motion = Motion{" + vector(m.velocity) + ", " + (m.angular_velocity.size() > 0 ? vector(m.angular_velocity) : "{}") + ", " + number(m.mass) + ", " + number(m.restitution) + ", " +
+             number(m.friction) + ", " + (m.is_static ? "true" : "false") + "};  // angular velocity in radians\n";
+    }
     if (!body.pose.matrix.isIdentity(0)) out += it + ".pose.matrix << " + matrix(body.pose.matrix) + ";  // by rows\n";
   }
   return out + "const Result result = solve(scene, resolve_settings({}, scene));\n";

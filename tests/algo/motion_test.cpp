@@ -245,6 +245,10 @@ TEST(Simulate, TheGallerysAnswers) {
   // The stack stands.
   const Result stack = end("sim-stack-of-five");
   for (std::size_t i = 1; i < 6; ++i) EXPECT_NEAR((*stack.bodies)[i].position[1], static_cast<double>(i) - 0.5, 0.02);
+  // Over flush tiles: the one slides to the end after one touch, the other catches on an inner edge.
+  EXPECT_NEAR((*end("cast-ghost-cured").bodies)[0].position[0], 4, 1e-6);
+  EXPECT_NEAR((*end("cast-ghost-mesh").bodies)[0].position[0], 2.5, 1e-6);
+  EXPECT_LT((*end("cast-ghost").bodies)[0].position[0], 3);
   // The bullet is through the wall.
   EXPECT_GT((*end("sim-tunnelling").bodies)[0].position[0], 5);
   // The middle axis: the body turns over.

@@ -1,0 +1,36 @@
+// What a cast keeps while it looks for the first meeting: pairs, gaps, meetings, walls. Of cast.cpp.
+#pragma once
+
+#include "algo/status.h"
+#include "shapes/shape.h"
+
+namespace gjkdbg {
+
+/// Two convex parts of two bodies that still may meet. A mesh has a part for each triangle: what separates one of them separates no other.
+struct Pair {
+  int first, second;
+  const Shape *shape_a, *shape_b;
+  bool open = true;
+};
+
+/// What is known of a pair at a time.
+struct Gap {
+  double distance = 0;
+  AnyVector normal, witness_a, witness_b;
+  double bound = 0;  ///< how fast it closes at most
+};
+
+/// What a body was turned off by.
+struct Wall {
+  int body;
+  AnyVector normal;  ///< into the wall
+};
+
+struct Meeting {
+  CastStatus status = CastStatus::miss;
+  double time = 0;  ///< since the beginning of the stretch
+  Pair pair{-1, -1, nullptr, nullptr};
+  Gap gap;
+};
+
+}  // namespace gjkdbg

@@ -1,0 +1,169 @@
+// Below the views, on the right: how the certificate closes in; of moving scenes distance, energy and momentum over time.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "debugger/view/app.h"
+#include "debugger/view/explain.h"
+
+namespace gjkdbg {
+namespace {
+
+/// The gap between the bounds at a step.
+struct Sample {
+  std::size_t step;
+  double gap;
+  int phase;
+};
+
+std::vector<Sample> samples_of(const Recording& recording) {
+  std::vector<Sample> samples;
+  for (std::size_t i = 0; i < recording.events.size(); ++i)
+    std::visit(
+        [&](const auto& e) {
+          if constexpr (requires { e.upper_bound; }) samples.push_back({i, e.upper_bound - e.lower_bound, phase_of(recording.events[i])});
+        },
+        recording.events[i]);
+  const Result& r = recording.result;
+  if (r.upper_bound && r.lower_bound && phase_of(recording.events.back()) == 1) samples.push_back({recording.events.size() - 1, *r.upper_bound - *r.lower_bound, 1});
+  std::erase_if(samples, [](const Sample& x) { return !(x.gap > 0) || !std::isfinite(x.gap); });
+  return samples;
+}
+
+/// The length of the momentum, from 0 to its greatest.
+void momentum_curve(App& app, ImVec2 from, ImVec2 to, double first, double last) {
+  double most = 0;
+  for (const Event& event : app.session.recording().events)
+    if (const auto* e = std::get_if<recorded::State>(&event)) most = std::max(most, e->momentum.norm());
+  if (!(most > 0)) return;
+  std::optional<ImVec2> before;
+  for (const Event& event : app.session.recording().events)
+    if (const auto* e = std::get_if<recorded::State>(&event)) {
+      const ImVec2 here{from.x + static_cast<float>((e->time - first) / std::max(last - first, 1e-300)) * (to.x - from.x), to.y - static_cast<float>(e->momentum.norm() / most) * (to.y - from.y)};
+      if (before) ImGui::GetWindowDrawList()->AddLine(*before, here, packed(app.theme.palette.body_b), app.theme.px(1.2f));
+      before = here;
+    }
+}
+
+}  // namespace
+
+/// The gap between the bounds, event by event, on a logarithmic scale: the certificate closing in on the tolerance, down to the floor
+/// below which nothing can be told. With another run beside it, that one's too.
+void bounds_plot(App& app, float width, float height) {
+  Session& s = app.session;
+  const Theme& theme = app.theme;
+  const Palette& p = theme.palette;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled(at, {at.x + width, at.y + height}, packed(p.view), theme.px(6));
+  draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(10), at.y + theme.px(6)}, packed(p.text_faint), "gap between the bounds, log scale");
+  ImGui::Dummy({width, height});
+  const std::vector<Sample> samples = samples_of(s.recording()), others = s.comparing() ? samples_of(s.other()) : std::vector<Sample>();
+  if (samples.empty() && others.empty()) return;
+  const Settings& settings = s.recording().settings;
+  const double size = std::abs(s.recording().result.signed_distance.value_or(0));
+  const double floor = s.scene().scene.bodies.size() < 2 ? 0 : 2 * rounding_floor(s.scene().scene, settings), tolerance = std::max(settings.tolerance * size, 0.0);
+  double low = floor, high = floor;
+  for (const auto* list : {&samples, &others})
+    for (const Sample& x : *list) low = std::min(low, x.gap), high = std::max(high, x.gap);
+  const double log_low = std::floor(std::log10(low)) - 1, log_high = std::max(log_low + 1, std::ceil(std::log10(high)));
+  const ImVec2 from{at.x + theme.px(52), at.y + theme.px(28)}, to{at.x + width - theme.px(14), at.y + height - theme.px(12)};
+  const auto y_of = [&](double log) { return to.y - static_cast<float>((log - log_low) / (log_high - log_low)) * (to.y - from.y); };
+  const std::size_t last = std::max(s.count(), s.comparing() ? s.other().events.size() : 0) - 1;
+  const auto x_of = [&](std::size_t step) { return from.x + (last == 0 ? 0 : static_cast<float>(step) / static_cast<float>(last)) * (to.x - from.x); };
+  for (int i = 0; i <= 2; ++i) {
+    const double log = std::round(log_low + (log_high - log_low) * i / 2);
+    char text[16];
+    std::snprintf(text, sizeof text, "1e%+d", static_cast<int>(log));
+    draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(10), y_of(log) - theme.px(7)}, packed(p.text_faint), text);
+    draw->AddLine({from.x, y_of(log)}, {to.x, y_of(log)}, packed(p.field), 1);
+  }
+  const auto level = [&](double value, const char* name, Colour colour, bool below) {
+    if (!(value >= low * 0.999) || value > high) return;
+    const float y = y_of(std::log10(value));
+    for (float x = from.x; x < to.x; x += theme.px(8)) draw->AddLine({x, y}, {std::min(x + theme.px(4), to.x), y}, packed(colour), 1);
+    draw->AddText(theme.small, theme.small->FontSize * 0.85f, {from.x + theme.px(4), below ? y + 1 : y - theme.px(13)}, packed(colour), name);
+  };
+  level(floor, "rounding floor", p.dropped, true);
+  if (tolerance > 1.5 * floor) level(tolerance, "tolerance", p.support, false);
+  const auto curve = [&](const std::vector<Sample>& all, bool other) {
+    // Where many fall into one pixel, its least and its greatest stand for all.
+    std::vector<Sample> thinned;
+    const std::vector<Sample>* shown = &all;
+    if (static_cast<float>(all.size()) > 2 * (to.x - from.x)) {
+      for (std::size_t i = 0; i < all.size();) {
+        std::size_t least = i, most = i, end = i;
+        for (const float x = x_of(all[i].step); end < all.size() && x_of(all[end].step) < x + 2; ++end) {
+          if (all[end].gap < all[least].gap) least = end;
+          if (all[end].gap > all[most].gap) most = end;
+        }
+        thinned.push_back(all[std::min(least, most)]), thinned.push_back(all[std::max(least, most)]);
+        i = end;
+      }
+      shown = &thinned;
+    }
+    for (std::size_t i = 0; i < shown->size(); ++i) {
+      const std::vector<Sample>& list = *shown;
+      const Colour colour = other ? p.body_b : list[i].phase == 0 ? p.simplex : p.chosen;
+      const ImVec2 here{x_of(list[i].step), y_of(std::log10(list[i].gap))};
+      if (i > 0 && list[i - 1].phase == list[i].phase) draw->AddLine({x_of(list[i - 1].step), y_of(std::log10(list[i - 1].gap))}, here, packed(colour), theme.px(other ? 1.2f : 2));
+      if (other) draw->AddCircle(here, theme.px(3), packed(colour), 12, theme.px(1.2f));
+      else draw->AddCircleFilled(here, theme.px(2.5f), packed(colour));
+    }
+  };
+  curve(others, true);
+  curve(samples, false);
+  draw->AddLine({x_of(s.step()), from.y}, {x_of(s.step()), to.y}, packed(p.text.with_alpha(0.6)), 1);
+}
+
+/// A moving scene: over time, the distance of the pair looked at (cast), or the energy (simulate).
+void motion_plot(App& app, float width, float height) {
+  Session& s = app.session;
+  const Theme& theme = app.theme;
+  const Palette& p = theme.palette;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const bool cast = s.scene().scene.query == Query::cast;
+  draw->AddRectFilled(at, {at.x + width, at.y + height}, packed(p.view), theme.px(6));
+  draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(10), at.y + theme.px(6)}, packed(p.text_faint), cast ? "distance over time, each advance" : "energy over time, and momentum (its own scale)");
+  ImGui::Dummy({width, height});
+  struct Point {
+    double time, value;
+    int series;
+  };
+  std::vector<Point> points;
+  for (const Event& event : s.recording().events) {
+    if (const auto* e = std::get_if<recorded::CastAdvanced>(&event); e && cast) points.push_back({e->time, e->distance, e->pair[0] * 1000 + e->pair[1]});
+    if (const auto* e = std::get_if<recorded::State>(&event); e && !cast) points.push_back({e->time, e->energy, 0});
+  }
+  if (points.empty()) return;
+  double low = cast ? 0 : points[0].value, high = points[0].value, first = cast ? 0 : points[0].time, last = cast ? 1 : points[0].time;
+  for (const Point& x : points) low = std::min(low, x.value), high = std::max(high, x.value), last = std::max(last, x.time);
+  if (!(high > low)) high = low + std::max(1e-12, std::abs(low) * 1e-3);
+  const ImVec2 from{at.x + theme.px(64), at.y + theme.px(28)}, to{at.x + width - theme.px(14), at.y + height - theme.px(22)};
+  const auto place = [&](const Point& x) {
+    return ImVec2{from.x + static_cast<float>((x.time - first) / std::max(last - first, 1e-300)) * (to.x - from.x), to.y - static_cast<float>((x.value - low) / (high - low)) * (to.y - from.y)};
+  };
+  for (const double value : {low, high}) {
+    const float y = place({first, value, 0}).y;
+    draw->AddLine({from.x, y}, {to.x, y}, packed(p.field), 1);
+    draw->AddText(theme.small, theme.small->FontSize * 0.85f, {at.x + theme.px(8), y - theme.px(6)}, packed(p.text_faint), short_number(value).c_str());
+  }
+  draw->AddText(theme.small, theme.small->FontSize * 0.85f, {from.x, to.y + theme.px(4)}, packed(p.text_faint), ("t " + short_number(first)).c_str());
+  const std::string end = short_number(last);
+  draw->AddText(theme.small, theme.small->FontSize * 0.85f, {to.x - theme.px(7) * static_cast<float>(end.size()), to.y + theme.px(4)}, packed(p.text_faint), end.c_str());
+  std::map<int, ImVec2> before;
+  for (const Point& x : points) {
+    const ImVec2 here = place(x);
+    const Colour colour = !cast || x.series == s.frame().pair[0] * 1000 + s.frame().pair[1] ? p.simplex : p.dropped;
+    if (const auto found = before.find(x.series); found != before.end() && here.x >= found->second.x) draw->AddLine(found->second, here, packed(colour), theme.px(1.6f));
+    if (cast) draw->AddCircleFilled(here, theme.px(2.5f), packed(colour));
+    before[x.series] = here;
+  }
+  if (!cast) momentum_curve(app, from, to, first, last);
+  if (!s.frame().time) return;
+  const float x = place({*s.frame().time, low, 0}).x;
+  draw->AddLine({x, from.y}, {x, to.y}, packed(p.text.with_alpha(0.6)), 1);
+}
+
+}  // namespace gjkdbg
