@@ -1,6 +1,4 @@
-#include <limits>
 #include <algorithm>
-#include <cmath>
 
 #include "recordings/json_reading.h"
 #include "recordings/scene_file.h"
@@ -78,18 +76,17 @@ class SceneReader {
     }
   }
 
-  double at_least(ObjectReader& o, const char* key, double value, double low, double high = std::numeric_limits<double>::infinity()) {
+  double at_least(ObjectReader& o, const char* key, double value, double low, double high) {
     const Json* j = o.optional(key);
     if (!j) return value;
     const double x = read_number(*j, o.at(key));
-    if (!(x >= low && x <= high)) reject(o.at(key), "out-of-range", high < 1e300 ? "must lie between " + short_text(low) + " and " + short_text(high) : low > 0 ? "must be positive" : "must not be negative");
+    if (!(x >= low && x <= high)) reject(o.at(key), "out-of-range", "must lie between " + Json(low).dump() + " and " + Json(high).dump());
     return x;
   }
-  static std::string short_text(double x) { return x == std::floor(x) ? std::to_string(static_cast<long>(x)) : std::to_string(x); }
-
   AnyVector bounded(const Json& json, const Place& place, int size) {
     AnyVector v = read_vector(json, place, size);
-    if (v.cwiseAbs().maxCoeff() > 1e30) reject(place, "out-of-range", "must not be beyond 1e30");
+    // Places, speeds and energies of a whole simulation stay far from overflow.
+    if (v.cwiseAbs().maxCoeff() > 1e15) reject(place, "out-of-range", "must not be beyond 1e15");
     return v;
   }
 
@@ -100,7 +97,7 @@ class SceneReader {
       if (const Json* j = o.optional("response")) m.response = static_cast<Response>(read_enum(*j, o.at("response"), response_names));
     } else {
       if (const Json* j = o.optional("gravity")) m.gravity = bounded(*j, o.at("gravity"), dimension_);
-      m.time_step = at_least(o, "time_step", m.time_step, 1e-12);
+      m.time_step = at_least(o, "time_step", m.time_step, 1e-12, 1e6);
       if (const Json* j = o.optional("steps")) m.steps = read_integer(*j, o.at("steps"), 1, 1000000);
       if (const Json* j = o.optional("integrator")) m.integrator = static_cast<Integrator>(read_enum(*j, o.at("integrator"), integrator_names));
     }
@@ -111,7 +108,7 @@ class SceneReader {
   AnyVector angular_velocity(const Json& json, const Place& place) {
     if (dimension_ == 1) reject(place, "wrong-dimension", "nothing turns in one dimension");
     AnyVector w(dimension_ == 2 ? 1 : 3);
-    if (dimension_ == 2 && json.is_number()) w[0] = read_number(json, place);
+    if (dimension_ == 2 && json.is_number()) w = bounded(Json::array({json}), place, 1);
     else w = bounded(json, place, dimension_ == 2 ? 1 : 3);
     for (double& x : w) x = radians_from_degrees(x);
     return w;
@@ -125,8 +122,8 @@ class SceneReader {
     if (const Json* j = o.optional("angular_velocity")) m.angular_velocity = angular_velocity(*j, o.at("angular_velocity"));
     m.restitution = at_least(o, "restitution", m.restitution, 0, 1);
     if (query != Query::simulate) return m;
-    m.mass = at_least(o, "mass", m.mass, 1e-30);
-    m.friction = at_least(o, "friction", m.friction, 0);
+    m.mass = at_least(o, "mass", m.mass, 1e-30, 1e30);
+    m.friction = at_least(o, "friction", m.friction, 0, 1e15);
     if (const Json* j = o.optional("static")) m.is_static = read_bool(*j, o.at("static"));
     return m;
   }
