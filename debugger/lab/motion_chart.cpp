@@ -28,11 +28,6 @@ Body moving(const Shape& shape, const Vector<3, double>& position, const Vector<
   return b;
 }
 
-struct CastScene {
-  Scene scene;
-  double time;  ///< of impact, by closed form or bisection
-};
-
 double gap(const Scene& scene, double time) {
   Scene two = scene;
   two.query = Query::penetration;
@@ -50,14 +45,16 @@ double true_time(const Scene& scene) {
   return high;
 }
 
-std::vector<CastScene> casts(const std::string& family, int count) {
+}  // namespace
+
+std::vector<CastScene> cast_scenes(const std::string& family, int count) {
   Numbers number;
   std::vector<CastScene> list;
   while (static_cast<int>(list.size()) < count) {
     const auto any = [&](double r) { return Vector<3, double>(number(-r, r), number(-r, r), number(-r, r)); };
     const Shape ball{Sphere{0.5}, 0}, box{Box{AnyVector(Vector<3, double>::Constant(-0.5)), AnyVector(Vector<3, double>::Constant(0.5))}, 0};
     const bool turns = family == "boxes, turning";
-    const Vector<3, double> place = any(1).normalized() * number(2.5, 4), spin = turns ? any(3) : Vector<3, double>(Vector<3, double>::Zero());
+    const Vector<3, double> place = any(1).normalized() * number(2.5, 4), spin = turns ? any(1.5) : Vector<3, double>(Vector<3, double>::Zero());
     CastScene c;
     c.scene.query = Query::cast;
     c.scene.motion = SceneMotion{};
@@ -72,6 +69,8 @@ std::vector<CastScene> casts(const std::string& family, int count) {
   return list;
 }
 
+namespace {
+
 double nanoseconds(const std::function<void()>& run, int rounds) {
   std::vector<double> times;
   for (int i = 0; i <= rounds; ++i) {
@@ -84,7 +83,7 @@ double nanoseconds(const std::function<void()>& run, int rounds) {
 }
 
 void cast_points(const std::string& family, bool quick, std::vector<MotionPoint>& points) {
-  const std::vector<CastScene> scenes = casts(family, quick ? 20 : 100);
+  const std::vector<CastScene> scenes = cast_scenes(family, quick ? 20 : 100);
   for (const MethodName name : {MethodName::conservative_advancement, MethodName::root_finding, MethodName::ray_cast}) {
     if (name == MethodName::ray_cast && family == "boxes, turning") continue;
     for (const double tolerance : quick ? std::vector<double>{1e-3, 1e-9} : std::vector<double>{1e-2, 1e-4, 1e-6, 1e-9, 1e-12}) {

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "shapes/scene.h"
+
 namespace gjkdbg {
 
 struct MotionPoint {
@@ -16,5 +18,13 @@ struct MotionPoint {
 };
 
 std::vector<MotionPoint> motion_points(bool quick);
+
+struct CastScene {
+  Scene scene;
+  double time;  ///< of impact, by bisection
+};
+
+/// Pairs in space that meet: "balls", "boxes", "boxes, turning". The same ones every time.
+std::vector<CastScene> cast_scenes(const std::string& family, int count);
 
 }  // namespace gjkdbg
