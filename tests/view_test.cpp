@@ -92,8 +92,13 @@ TEST_F(Window, TransportButtonsDoWhatTheirKeysDo) {
 TEST_F(Window, OpensAndSavesByName) {
   host.press(Key::s, false, true);
   host.frame();
-  host.press(Key::enter);
+  const bool dark = app.preferences.dark;
+  feed_key(Key::enter, true);
+  host.frame();
   EXPECT_EQ(app.save_requested, "box-box-deep.scene.json");
+  feed_key(Key::enter, false);
+  host.press(Key::t);  // in the very next frame: a key again, no text
+  EXPECT_NE(app.preferences.dark, dark);
   host.press(Key::o, false, true);
   host.frame();
   host.type(app.gallery().file("2d-deep").string());

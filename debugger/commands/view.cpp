@@ -53,11 +53,28 @@ void remember(const Preferences& preferences) {
   }
 }
 
+/// A folder of our own among the temporary files, gone with this object however its scope is left.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    if (!mkdtemp(path_.data())) throw Error("cannot-write", "no temporary folder can be made", path_);
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_ = (std::filesystem::temp_directory_path() / "gjkdbg-XXXXXX").string();
+};
+
 /// A picture or the replay of what is open, made by this program's own `render` on a copy of the recording: the window's graphics stay as they are.
 void render_to(const App& app, const std::string& file) {
-  std::string folder = (std::filesystem::temp_directory_path() / "gjkdbg-XXXXXX").string();
-  if (!mkdtemp(folder.data())) throw Error("cannot-write", "no temporary folder can be made", folder);
-  const std::string copy = folder + "/" + (app.session.title().empty() ? "picture" : std::filesystem::path(app.session.title()).filename().string()) + ".recording.json";
+  const TemporaryFolder folder;
+  const std::string copy = folder.path() + "/" + (app.session.title().empty() ? "picture" : std::filesystem::path(app.session.title()).filename().string()) + ".recording.json";
   write_output(copy, recording_to_text(app.session.recording()));
   std::vector<std::string> words{"gjkdbg", "render", copy, "-o", file};
   if (file.ends_with(".gif")) words.push_back("--all");
@@ -70,7 +87,6 @@ void render_to(const App& app, const std::string& file) {
   int status = -1;
   const int failed = posix_spawn(&child, program_path().c_str(), nullptr, nullptr, arguments.data(), environ);
   if (failed == 0) waitpid(child, &status, 0);
-  std::filesystem::remove_all(folder);
   if (failed != 0 || !WIFEXITED(status) || WEXITSTATUS(status) != 0) throw Error("cannot-write", "the picture could not be made", file);
 }
 

@@ -296,7 +296,8 @@ void App::control_keys(bool shift) {
 
 void App::keys() {
   const ImGuiIO& io = ImGui::GetIO();
-  if (io.WantTextInput || !session.is_open()) return;
+  // WantTextInput still holds in the frame after a text field went away with its dialog: keys typed meanwhile are no text.
+  if ((io.WantTextInput && ImGui::IsAnyItemActive()) || !session.is_open()) return;
   step_keys(io.KeyShift, io.KeyCtrl);
   if (io.KeyCtrl) return control_keys(io.KeyShift);
   if (key_pressed(Key::home)) session.playing = false, session.go_to(0);
