@@ -8,6 +8,7 @@
 #include "algo/cast.h"
 #include "algo/contact.h"
 #include "algo/motion.h"
+#include "algo/prepared_pair.h"
 #include "algo/simulate.h"
 #include "algo/solve_pair.h"
 #include "shapes/error.h"
@@ -26,27 +27,19 @@ double working_scale(double size, int range) {
 template <class S>
 constexpr int safe_range = std::is_same_v<S, float> ? 16 : 64;
 
-struct NoSink {};
-
-template <int D, class S, class Sink>
-Result solve_convex(const Shape& shape_a, const Shape& shape_b, const Scene& scene, const Settings& settings, Sink& sink,
-                    TraceNumbers& numbers) {
-  const Pose &pose_a = scene.bodies[0].pose, &pose_b = scene.bodies[1].pose;
-  const double between = (pose_b.position - pose_a.position).cwiseAbs().maxCoeff();
-  const double scale = working_scale(std::max({size_of(shape_a), size_of(shape_b), between}), safe_range<S>);
-  const Convex<D, S> a(shape_a, scale), b(shape_b, scale);
+template <int D, class S>
+Result solve_convex(const Body& a, const Body& b, const Query query, const Settings& settings, TraceSink* sink, TraceNumbers& numbers) {
+  const double between = (b.pose.position - a.pose.position).cwiseAbs().maxCoeff();
+  const double scale = working_scale(std::max({size_of(a.shape), size_of(b.shape), between}), safe_range<S>);
+  if (!sink) return prepare(a, b, D, settings.scalar, scale)->run(settings, query);
+  const Convex<D, S> core_a(a.shape, scale), core_b(b.shape, scale);
   thread_local Workspace<D, S> workspace;
   std::optional<Features> features_a, features_b;
-  if (settings.name == MethodName::sat) features_a = features_of(shape_a, D), features_b = features_of(shape_b, D);
+  if (settings.name == MethodName::sat) features_a = features_of(a.shape, D), features_b = features_of(b.shape, D);
   const Features *fa = features_a ? &*features_a : nullptr, *fb = features_b ? &*features_b : nullptr;
-  if constexpr (std::is_same_v<Sink, NoSink>) {
-    NoTrace trace;
-    return PairSolver<D, S, NoTrace>(a, b, pose_a, pose_b, scale, settings, workspace, trace, fa, fb).run(scene.query);
-  } else {
-    const WorkingFrame<D, S> frame(pose_a, a.reference(), scale);
-    WorldTrace<D, S> trace(frame, numbers, sink);
-    return PairSolver<D, S, WorldTrace<D, S>>(a, b, pose_a, pose_b, scale, settings, workspace, trace, fa, fb).run(scene.query);
-  }
+  const WorkingFrame<D, S> frame(a.pose, core_a.reference(), scale);
+  WorldTrace<D, S> trace(frame, numbers, *sink);
+  return PairSolver<D, S, WorldTrace<D, S>>(core_a, core_b, a.pose, b.pose, scale, settings, workspace, trace, fa, fb).run(query);
 }
 
 bool nearer(const Result& x, const Result& y) {
@@ -68,38 +61,23 @@ void merge(std::optional<Result>& total, const Result& part) {
   total = merged;
 }
 
-template <int D, class S, class Sink>
-Result solve_scene(const Scene& scene, const Settings& settings, Sink& sink, TraceNumbers& numbers) {
+template <int D, class S>
+Result solve_scene(const Scene& scene, const Settings& settings, TraceSink* sink, TraceNumbers& numbers) {
   const Body &a = scene.bodies[0], &b = scene.bodies[1];
   const std::vector<Shape> parts_a = convex_parts(a.shape), parts_b = convex_parts(b.shape);
   std::optional<Result> total;
   for (const Shape& part_a : parts_a)
     for (const Shape& part_b : parts_b) {
-      Result result = solve_convex<D, S>(part_a, part_b, scene, settings, sink, numbers);
+      const Body one{a.name, part_a, a.pose}, other{b.name, part_b, b.pose};
+      Result result = solve_convex<D, S>(one, other, scene.query, settings, sink, numbers);
       numbers.next_run();
-      if (scene.query == Query::contact && result.intersecting && result.normal)
-        result.contacts = contact_points({a.name, part_a, a.pose}, {b.name, part_b, b.pose}, result);
+      if (scene.query == Query::contact && result.intersecting && result.normal) result.contacts = contact_points(one, other, result);
       merge(total, result);
       if (scene.query == Query::intersect && total->intersecting) return *total;
     }
   if (scene.query == Query::contact && !total->contacts) total->contacts.emplace();
   return *total;
 }
-
-template <class Sink>
-Result dispatch(const Scene& scene, const Settings& settings, Sink& sink, TraceNumbers& numbers) {
-  assert(scene.bodies.size() == 2);
-  const bool single = settings.scalar == Scalar::float_precision;
-  switch (scene.dimension) {
-    case 1: return single ? solve_scene<1, float>(scene, settings, sink, numbers) : solve_scene<1, double>(scene, settings, sink, numbers);
-    case 2: return single ? solve_scene<2, float>(scene, settings, sink, numbers) : solve_scene<2, double>(scene, settings, sink, numbers);
-    default: return single ? solve_scene<3, float>(scene, settings, sink, numbers) : solve_scene<3, double>(scene, settings, sink, numbers);
-  }
-}
-
-}  // namespace
-
-namespace {
 
 template <int D, class S>
 double floor_of(const Scene& scene) {
@@ -120,25 +98,32 @@ double rounding_floor(const Scene& scene, const Settings& settings) {
   }
 }
 
-Result solve(const Scene& scene, const Settings& settings) {
-  if (scene.query == Query::cast) return cast(scene, settings, nullptr);
-  if (scene.query == Query::simulate) return simulate(scene, settings, nullptr);
-  NoSink sink;
-  TraceNumbers numbers;
-  return dispatch(scene, settings, sink, numbers);
+Result solve_static(const Scene& scene, const Settings& settings, TraceSink* sink, TraceNumbers& numbers) {
+  assert(scene.bodies.size() == 2);
+  const bool single = settings.scalar == Scalar::float_precision;
+  switch (scene.dimension) {
+    case 1: return single ? solve_scene<1, float>(scene, settings, sink, numbers) : solve_scene<1, double>(scene, settings, sink, numbers);
+    case 2: return single ? solve_scene<2, float>(scene, settings, sink, numbers) : solve_scene<2, double>(scene, settings, sink, numbers);
+    default: return single ? solve_scene<3, float>(scene, settings, sink, numbers) : solve_scene<3, double>(scene, settings, sink, numbers);
+  }
 }
 
-Result solve_static(const Scene& scene, const Settings& settings, TraceSink* trace, TraceNumbers& numbers) {
-  NoSink sink;
-  return trace ? dispatch(scene, settings, *trace, numbers) : dispatch(scene, settings, sink, numbers);
+namespace {
+
+Result solve_any(const Scene& scene, const Settings& settings, TraceSink* sink) {
+  if (scene.query == Query::cast) return cast(scene, settings, sink);
+  if (scene.query == Query::simulate) return simulate(scene, settings, sink);
+  TraceNumbers numbers;
+  return solve_static(scene, settings, sink, numbers);
 }
+
+}  // namespace
+
+Result solve(const Scene& scene, const Settings& settings) { return solve_any(scene, settings, nullptr); }
 
 Result solve(const Scene& scene, const Settings& settings, TraceSink& trace) {
   for (const SceneWarning& warning : scene.warnings) trace(world::Warning{warning.code, warning.message});
-  if (scene.query == Query::cast) return cast(scene, settings, &trace);
-  if (scene.query == Query::simulate) return simulate(scene, settings, &trace);
-  TraceNumbers numbers;
-  return dispatch(scene, settings, trace, numbers);
+  return solve_any(scene, settings, &trace);
 }
 
 }  // namespace gjkdbg

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <map>
 
+#include "algo/prepared_pair.h"
 #include "algo/solve.h"
 #include "recordings/json_writing.h"
 
@@ -20,6 +21,8 @@ double median(std::vector<double> values) {
 }
 
 using Pairs = std::vector<std::unique_ptr<PreparedPair>>;
+
+std::unique_ptr<PreparedPair> prepared(const Scene& scene, Scalar scalar) { return prepare(scene.bodies[0], scene.bodies[1], scene.dimension, scalar); }
 
 /// Nanoseconds a query: the median of several rounds over all pairs, after one to warm up.
 double time_of(Pairs& pairs, const std::vector<Settings>& settings, Query query, int rounds) {
@@ -81,7 +84,7 @@ PricePoint price_of(const std::vector<PriceRow>& rows, const PriceRow& row, int 
   Pairs pairs;
   std::vector<Settings> settings;
   for (std::size_t i = 0; i < row.scenes.size(); ++i) {
-    pairs.push_back(prepare(row.scenes[i], Scalar::double_precision));
+    pairs.push_back(prepared(row.scenes[i], Scalar::double_precision));
     settings.push_back(resolve_settings({}, row.scenes[i]));
     const Result r = pairs.back()->run(settings.back(), row.query);
     point.supports += static_cast<double>(r.support_calls) / static_cast<double>(row.scenes.size());
@@ -108,7 +111,7 @@ Chart make_chart(bool quick, const std::function<bool(double)>& progress) {
     for (const Variant& variant : all) {
       const bool single = variant.method.scalar == Scalar::float_precision;
       Pairs pairs;
-      for (const Scene& scene : family.scenes) pairs.push_back(prepare(scene, *variant.method.scalar));
+      for (const Scene& scene : family.scenes) pairs.push_back(prepared(scene, *variant.method.scalar));
       for (const double tolerance : tolerances)
         if (!single || tolerance >= 1e-7) chart.panels.back().points.push_back(measure(family, references, pairs, variant, tolerance, rounds));
       if (!progress(++done / (total + 1))) return mark_front(chart.panels.back().points), chart;

@@ -4,41 +4,9 @@
 #include <cmath>
 
 #include "algo/solve.h"
-#include "algo/solve_pair.h"
 #include "shapes/convex.h"
 
 namespace gjkdbg {
-namespace {
-
-template <int D, class S>
-class Prepared final : public PreparedPair {
- public:
-  explicit Prepared(const Scene& scene)
-      : a_(scene.bodies[0].shape), b_(scene.bodies[1].shape), pose_a_(scene.bodies[0].pose), pose_b_(scene.bodies[1].pose) {}
-  Result run(const Settings& settings, Query query) override {
-    NoTrace trace;
-    return PairSolver<D, S, NoTrace>(a_, b_, pose_a_, pose_b_, 1, settings, workspace_, trace).run(query);
-  }
-
- private:
-  Convex<D, S> a_, b_;
-  Pose pose_a_, pose_b_;
-  Workspace<D, S> workspace_;
-};
-
-template <class S>
-std::unique_ptr<PreparedPair> prepare_scalar(const Scene& scene) {
-  if (scene.dimension == 1) return std::make_unique<Prepared<1, S>>(scene);
-  if (scene.dimension == 2) return std::make_unique<Prepared<2, S>>(scene);
-  return std::make_unique<Prepared<3, S>>(scene);
-}
-
-}  // namespace
-
-std::unique_ptr<PreparedPair> prepare(const Scene& scene, Scalar scalar) {
-  return scalar == Scalar::float_precision ? prepare_scalar<float>(scene) : prepare_scalar<double>(scene);
-}
-
 std::vector<Variant> variants() {
   std::vector<Variant> out;
   for (const Scalar scalar : {Scalar::double_precision, Scalar::float_precision}) {

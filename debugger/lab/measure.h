@@ -1,7 +1,6 @@
-// One pair, prepared once, solved many times: the core alone, without files, hulls or traces.
+// What is measured: methods, and the reference they are judged by.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,15 +9,6 @@
 #include "shapes/scene.h"
 
 namespace gjkdbg {
-
-class PreparedPair {
- public:
-  virtual ~PreparedPair() = default;
-  virtual Result run(const Settings& settings, Query query) = 0;
-};
-
-/// Convex bodies only. In the scalar given; the settings of `run` must ask for the same.
-std::unique_ptr<PreparedPair> prepare(const Scene& scene, Scalar scalar);
 
 /// A method as the charts and the atlas compare them.
 struct Variant {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "algo/solve_pair.h"
+#include "algo/prepared_pair.h"
 #include "recordings/gallery.h"
 #include "recordings/recording.h"
 #include "tests/support/random_scenes.h"
@@ -89,12 +89,9 @@ TEST(Need, RoundCoresNeedNoPolytope) {
 }
 
 /// Shapes prepared once, the workspace kept: the query itself.
-template <int D>
 long allocations_of(const Scene& scene, const Settings& settings, Query query) {
-  const Convex<D, double> a(scene.bodies[0].shape), b(scene.bodies[1].shape);
-  Workspace<D, double> workspace;
-  NoTrace trace;
-  const auto run = [&] { return PairSolver<D, double, NoTrace>(a, b, scene.bodies[0].pose, scene.bodies[1].pose, 1, settings, workspace, trace).run(query); };
+  const auto pair = prepare(scene.bodies[0], scene.bodies[1], scene.dimension, Scalar::double_precision);
+  const auto run = [&] { return pair->run(settings, query); };
   for (int i = 0; i < 3; ++i) (void)run();  // the workspace grows to what this pair needs
   const long before = allocations;
   const Result r = run();
@@ -113,7 +110,7 @@ TEST(Need, APreparedQueryAllocatesNothing) {
     const Scene scene = random.scene(dimension, static_cast<Family>(k / 3 % 3), k % 2 == 0);
     const Settings settings = resolve_settings({}, scene);
     for (const Query query : {Query::intersect, Query::distance, Query::penetration}) {
-      const long made = dimension == 1 ? allocations_of<1>(scene, settings, query) : dimension == 2 ? allocations_of<2>(scene, settings, query) : allocations_of<3>(scene, settings, query);
+      const long made = allocations_of(scene, settings, query);
       EXPECT_EQ(made, 0) << "scene " << k << " " << query_names[static_cast<std::size_t>(query)];
       if (testing::Test::HasFailure()) return;
     }

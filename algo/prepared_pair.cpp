@@ -1,0 +1,58 @@
+#include "algo/prepared_pair.h"
+
+#include "algo/solve_pair.h"
+#include "shapes/convex.h"
+
+namespace gjkdbg {
+namespace {
+
+template <int D, class S>
+class Prepared final : public PreparedPair {
+ public:
+  Prepared(const Body& a, const Body& b, double scale)
+      : a_(a.shape, scale), b_(b.shape, scale), pose_a_(a.pose), pose_b_(b.pose), scale_(scale), features_a_(a.shape), features_b_(b.shape) {}
+
+  Result run(const Settings& settings, Query query) override {
+    NoTrace trace;
+    const bool sat = settings.name == MethodName::sat;
+    return PairSolver<D, S, NoTrace>(a_, b_, pose_a_, pose_b_, scale_, settings, workspace_, trace, sat ? features_a_.get() : nullptr, sat ? features_b_.get() : nullptr).run(query);
+  }
+  void place(const Pose& a, const Pose& b) override { pose_a_ = a, pose_b_ = b; }
+
+ private:
+  /// Faces and edges, found when SAT first asks for them.
+  class LateFeatures {
+   public:
+    explicit LateFeatures(const Shape& shape) : shape_(shape) {}
+    const Features* get() {
+      if (!features_) features_ = features_of(shape_, D);
+      return &*features_;
+    }
+
+   private:
+    Shape shape_;
+    std::optional<Features> features_;
+  };
+
+  Convex<D, S> a_, b_;
+  Pose pose_a_, pose_b_;
+  double scale_;
+  LateFeatures features_a_, features_b_;
+  Workspace<D, S> workspace_;
+};
+
+template <int D>
+std::unique_ptr<PreparedPair> prepare_in(const Body& a, const Body& b, Scalar scalar, double scale) {
+  if (scalar == Scalar::float_precision) return std::make_unique<Prepared<D, float>>(a, b, scale);
+  return std::make_unique<Prepared<D, double>>(a, b, scale);
+}
+
+}  // namespace
+
+std::unique_ptr<PreparedPair> prepare(const Body& a, const Body& b, int dimension, Scalar scalar, double scale) {
+  if (dimension == 1) return prepare_in<1>(a, b, scalar, scale);
+  if (dimension == 2) return prepare_in<2>(a, b, scalar, scale);
+  return prepare_in<3>(a, b, scalar, scale);
+}
+
+}  // namespace gjkdbg

@@ -1,0 +1,26 @@
+// A pair of convex bodies made ready once and asked as often as wanted, wherever they are: what a program that only
+// wants answers calls. Nothing is traced, and after the first few queries nothing is allocated.
+#pragma once
+
+#include <memory>
+
+#include "algo/result.h"
+#include "algo/settings.h"
+#include "shapes/scene.h"
+
+namespace gjkdbg {
+
+/// One object must not be used by two threads at once; different objects may.
+class PreparedPair {
+ public:
+  virtual ~PreparedPair() = default;
+  /// `settings` must ask for the scalar the pair was made in. Query: intersect, distance or penetration.
+  virtual Result run(const Settings& settings, Query query) = 0;
+  /// Where the bodies are from now on. The rotations' `matrix` must be orthonormal.
+  virtual void place(const Pose& a, const Pose& b) = 0;
+};
+
+/// Both shapes must be valid in the dimension (`validate`) and no meshes. Lengths are multiplied by `scale`, a power of two, while at work.
+std::unique_ptr<PreparedPair> prepare(const Body& a, const Body& b, int dimension, Scalar scalar, double scale = 1);
+
+}  // namespace gjkdbg
