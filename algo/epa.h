@@ -168,7 +168,7 @@ class Epa {
   V plane_normal(const std::array<int, D + 1>& chosen) const {
     if constexpr (D == 3) {
       using W = WideVector<S>;
-      const W n = (W(at(chosen[1])) - W(at(chosen[0]))).cross(W(at(chosen[2])) - W(at(chosen[0])));
+      const W n = W::difference(at(chosen[1]), at(chosen[0])).cross(W::difference(at(chosen[2]), at(chosen[0])));
       return n.template rounded<3>().stableNormalized();
     }
     return V::Zero();

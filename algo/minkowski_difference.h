@@ -13,6 +13,7 @@
 // world's origin costs no accuracy.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -51,16 +52,32 @@ RelativePose<D, S> relative_pose(const Pose& pose_a, const Vector<D, double>& re
       if (reference_a[j] != 0) offset[i] = offset[i] - Two::two_product(pose_a.matrix(i, j), reference_a[j]);
     }
   }
+  // Scalar products in twice the precision (Dot2 of Ogita, Rump, Oishi 2005); what goes into many products is split once. Each row is
+  // (row i of R0^T) times [R1 | offset]: D + 1 sums side by side.
+  using Row = Eigen::Array<double, D + 1, 1>;
+  const auto high_part = [](const Row& x) -> Row { const Row big = x * 134217729.0; return big - (big - x); };  // DoubleDouble::split
+  std::array<Row, D> right, right_high, right_low, tail;  // tail: what `right` leaves out
+  for (int k = 0; k < D; ++k) {
+    for (int j = 0; j < D; ++j) right[k][j] = pose_b.matrix(k, j);
+    right[k][D] = offset[k].high;
+    tail[k] = Row::Zero(), tail[k][D] = offset[k].low;
+    right_high[k] = high_part(right[k]), right_low[k] = right[k] - right_high[k];
+  }
   RelativePose<D, S> relative;
   for (int i = 0; i < D; ++i) {
-    Two position = 0.0;
-    for (int k = 0; k < D; ++k) position = position + offset[k] * Two(pose_a.matrix(k, i));
-    relative.position[i] = static_cast<S>(static_cast<double>(position));
-    for (int j = 0; j < D; ++j) {
-      Two entry = 0.0;
-      for (int k = 0; k < D; ++k) entry = entry + Two::two_product(pose_a.matrix(k, i), pose_b.matrix(k, j));
-      relative.rotation(i, j) = static_cast<S>(static_cast<double>(entry));
+    Row sum = Row::Zero(), rest = Row::Zero();
+    for (int k = 0; k < D; ++k) {
+      const double left = pose_a.matrix(k, i);
+      const Two halves = Two::split(left);
+      const Row product = left * right[k];
+      const Row error = ((halves.high * right_high[k] - product) + halves.high * right_low[k] + halves.low * right_high[k]) + halves.low * right_low[k];
+      const Row total = sum + product, part = total - sum;
+      rest += ((sum - (total - part)) + (product - part)) + error + left * tail[k];
+      sum = total;
     }
+    const Row rounded = sum + rest;
+    for (int j = 0; j < D; ++j) relative.rotation(i, j) = static_cast<S>(rounded[j]);
+    relative.position[i] = static_cast<S>(rounded[D]);
   }
   return relative;
 }

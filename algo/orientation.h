@@ -39,8 +39,8 @@ int orientation(const Vector<3, S>& a, const Vector<3, S>& b, const Vector<3, S>
   const S value = x.cross(y).dot(z);
   const S m = std::max({x.cwiseAbs().maxCoeff(), y.cwiseAbs().maxCoeff(), z.cwiseAbs().maxCoeff()});
   if (std::abs(value) > 2 * determinant_error(m)) return value > 0 ? 1 : -1;  // twice: the differences round too
-  const WideVector<S> origin(a);
-  return determinant_sign_wide<S>(WideVector<S>(b) - origin, WideVector<S>(c) - origin, WideVector<S>(d) - origin);
+  using W = WideVector<S>;
+  return determinant_sign_wide<S>(W::difference(b, a), W::difference(c, a), W::difference(d, a));
 }
 
 /// Sign of det[b - a, c - a]: +1 when a, b, c turn counter-clockwise.
@@ -50,10 +50,9 @@ int orientation(const Vector<2, S>& a, const Vector<2, S>& b, const Vector<2, S>
   const S value = x[0] * y[1] - x[1] * y[0];
   const S m = std::max(x.cwiseAbs().maxCoeff(), y.cwiseAbs().maxCoeff());
   if (std::abs(value) > 8 * std::numeric_limits<S>::epsilon() * m * m) return value > 0 ? 1 : -1;
-  const WideVector<S> wa(a), wx = WideVector<S>(b) - wa, wy = WideVector<S>(c) - wa;
   WideVector<S> unit;
   unit.c[2] = Wide<S>(1.0);
-  return determinant_sign_wide<S>(wx, wy, unit);
+  return determinant_sign_wide<S>(WideVector<S>::difference(b, a), WideVector<S>::difference(c, a), unit);
 }
 
 }  // namespace gjkdbg

@@ -137,7 +137,7 @@ void Polytope<D, S>::set_plane(Face& face) const {
       return;
     }
     using W = WideVector<S>;
-    const W exact = (W(b) - W(a)).cross(W(c) - W(a));
+    const W exact = W::difference(b, a).cross(W::difference(c, a));
     const S scale = exact.template rounded<3>().cwiseAbs().maxCoeff();
     n = exact.template rounded<3>() / (scale > 0 ? scale : S(1));
     length = n.norm();

@@ -18,6 +18,16 @@ struct WideVector {
   explicit WideVector(const Vector<D, S>& v) {
     for (int i = 0; i < D; ++i) c[i] = Wide<S>(v[i]);
   }
+  /// a - b exactly.
+  template <int D>
+  static WideVector difference(const Vector<D, S>& a, const Vector<D, S>& b) {
+    WideVector r;
+    for (int i = 0; i < D; ++i) {
+      if constexpr (std::is_same_v<S, double>) r.c[i] = DoubleDouble::two_sum(a[i], -b[i]);
+      else r.c[i] = static_cast<double>(a[i]) - static_cast<double>(b[i]);
+    }
+    return r;
+  }
   template <int D>
   Vector<D, S> rounded() const {
     Vector<D, S> v;

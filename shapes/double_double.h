@@ -30,11 +30,18 @@ struct DoubleDouble {
     const double sum = a + b;
     return {sum, b - (sum - a)};
   }
-  /// a * b exactly (barring underflow).
-  static DoubleDouble two_product(double a, double b) {
-    const double product = a * b;
-    return {product, std::fma(a, b, -product)};
+  /// a in two halves of 26 bits, whose products are exact (Veltkamp; |a| below 1e300).
+  static DoubleDouble split(double a) {
+    const double big = a * 134217729.0, high = big - (big - a);  // 2^27 + 1
+    return {high, a - high};
   }
+  /// a * b exactly (barring underflow), x and y being their halves. Without a processor's fused multiply-add at hand this is several
+  /// times as fast as std::fma, which then is a call; the results are the same.
+  static DoubleDouble two_product(double a, const DoubleDouble& x, double b, const DoubleDouble& y) {
+    const double product = a * b;
+    return {product, ((x.high * y.high - product) + x.high * y.low + x.low * y.high) + x.low * y.low};
+  }
+  static DoubleDouble two_product(double a, double b) { return two_product(a, split(a), b, split(b)); }
 
   friend DoubleDouble operator+(const DoubleDouble& x, const DoubleDouble& y) {
     DoubleDouble s = two_sum(x.high, y.high);

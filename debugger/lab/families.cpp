@@ -1,11 +1,13 @@
 #include "debugger/lab/families.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <random>
 
 #include "debugger/lab/measure.h"
+#include "shapes/error.h"
 
 namespace gjkdbg {
 namespace {
@@ -16,8 +18,10 @@ class Maker {
   AnyVector direction(int dimension) {
     std::normal_distribution<double> normal;
     AnyVector d(dimension);
-    for (double& x : d) x = normal(random_);
-    return d.normalized();
+    double squared = 0;
+    for (double& x : d) x = normal(random_), squared += x * x;
+    for (double& x : d) x /= std::sqrt(squared);
+    return d;
   }
   AnyMatrix rotation(int dimension) {
     if (dimension == 2) {
@@ -74,30 +78,130 @@ class Maker {
   std::mt19937 random_{7};
 };
 
+/// One family: what makes a pair of it.
+struct Recipe {
+  const char *name, *title;
+  double gap;
+  Shape (*shape)(Maker&);
+  int dimension = 3;
+  void (*change)(Maker&, Scene&) = nullptr;  ///< after placing
+};
+
+Shape regular(int corners, Maker& maker) {
+  PointSet set;
+  const double radius = maker.uniform(0.5, 1), turn = maker.uniform(0, 1);
+  for (int i = 0; i < corners; ++i) {
+    const double t = 2 * std::numbers::pi * (i + turn) / corners;
+    set.points.push_back(Eigen::Vector2d(radius * std::cos(t), radius * std::sin(t)));
+  }
+  return {set, 0};
+}
+
+/// Two boxes face on face, the same way round, 1e-9 apart or deep.
+void face_to_face(Maker& maker, Scene& scene) {
+  const Eigen::Matrix3d turn = maker.rotation(3);
+  double reach = 0;
+  for (Body& body : scene.bodies) body.pose.matrix = turn, reach += std::get<Box>(body.shape.geometry).max[0];
+  const double side = maker.uniform(-0.2, 0.2), gap = maker.uniform(-1, 1) > 0 ? 1e-9 : -1e-9;
+  scene.bodies[0].pose.position = Eigen::Vector3d(0, 0, 0);
+  scene.bodies[1].pose.position = Eigen::Vector3d(turn * Eigen::Vector3d(reach + gap, side, -side));
+}
+
+void far_out(Maker& maker, Scene& scene) {
+  const Eigen::Vector3d offset = 1e5 * maker.direction(3);
+  for (Body& body : scene.bodies)
+    for (int i = 0; i < 3; ++i) body.pose.position[i] += offset[i];
+}
+
+Shape capsule(Maker& maker) { return {Capsule{maker.uniform(0.2, 0.5), maker.uniform(0.3, 1), 1}, 0}; }
+Shape sliver(Maker& maker) {
+  const AnyVector half = Eigen::Vector3d(1, 1, 1e-4).cwiseProduct(Eigen::Vector3d(maker.uniform(0.4, 1), maker.uniform(0.4, 1), 1));
+  return {Box{-half, half, true}, 0};
+}
+Shape ratio(Maker& maker) {
+  Shape box = maker.box();
+  if (maker.uniform(0, 1) < 0.5) return box;
+  Box& b = std::get<Box>(box.geometry);
+  b.min *= 1e-4, b.max *= 1e-4;
+  return box;
+}
+template <int vertices>
+Shape hull(Maker& maker) { return maker.hull(vertices); }
+template <int corners>
+Shape polygon(Maker& maker) { return regular(corners, maker); }
+Shape box(Maker& maker) { return maker.box(); }
+Shape rectangle(Maker& maker) { return maker.box(2); }
+Shape curved(Maker& maker) { return maker.curved(); }
+Shape ellipsoid(Maker& maker) { return maker.ellipsoid(); }
+
+constexpr Recipe recipes[] = {
+    {"boxes-apart", "boxes, 0.5 apart", 0.5, box},
+    {"boxes-shallow", "boxes, 0.02 deep", -0.02, box},
+    {"boxes-deep", "boxes, 0.4 deep", -0.4, box},
+    {"hulls-apart", "hulls of 32 vertices, 0.5 apart", 0.5, hull<32>},
+    {"hulls-deep", "hulls of 32 vertices, 0.3 deep", -0.3, hull<32>},
+    {"curved-apart", "round shapes mixed, 0.5 apart", 0.5, curved},
+    {"curved-near", "round shapes mixed, 1e-4 apart", 1e-4, curved},
+    {"curved-shallow", "round shapes mixed, 0.05 deep", -0.05, curved},
+    {"ellipsoids-near", "ellipsoids, 1e-4 apart", 1e-4, ellipsoid},
+    {"capsules-apart", "capsules, 0.5 apart", 0.5, capsule},
+    {"capsules-overlap", "capsules, 0.1 deep", -0.1, capsule},
+    {"hulls128-apart", "hulls of 128 vertices, 0.5 apart", 0.5, hull<128>},
+    {"hulls128-deep", "hulls of 128 vertices, 0.3 deep", -0.3, hull<128>},
+    {"hulls1000-apart", "hulls of 1,000 vertices, 0.5 apart", 0.5, hull<1000>},
+    {"hulls1000-deep", "hulls of 1,000 vertices, 0.3 deep", -0.3, hull<1000>},
+    {"faces-touching", "boxes face to face, 1e-9 apart or deep", 0, box, 3, face_to_face},
+    {"slivers", "plates 1e4 times as wide as thick, 0.01 apart", 0.01, sliver},
+    {"size-ratio", "boxes, some 1e4 times as small, 0.01 apart", 0.01, ratio},
+    {"offset-1e5", "boxes 0.02 deep, 1e5 from the origin", -0.02, box, 3, far_out},
+    {"rectangles-2d", "rectangles in 2D, 0.3 apart", 0.3, rectangle, 2},
+    {"octagons-2d", "octagons in 2D, 0.3 apart", 0.3, polygon<8>, 2},
+};
+constexpr std::size_t charted = 9;  ///< of a chart when none are named
+
+std::vector<Scene> pairs_of(const Recipe& recipe, int pairs) {
+  Maker maker;
+  std::vector<Scene> out;
+  for (int i = 0; i < pairs; ++i) {
+    out.push_back(maker.pair([&] { return recipe.shape(maker); }, recipe.gap, recipe.dimension));
+    if (recipe.change) recipe.change(maker, out.back());
+  }
+  return out;
+}
+
 }  // namespace
 
-std::vector<ChartFamily> chart_families(int pairs) {
-  Maker maker;
+std::vector<std::string> chart_family_names() {
+  std::vector<std::string> names;
+  for (const Recipe& recipe : recipes) names.emplace_back(recipe.name);
+  return names;
+}
+
+std::vector<ChartFamily> chart_families(int pairs, const std::vector<std::string>& names) {
+  const auto known = chart_family_names();
+  for (const std::string& name : names)
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      std::string all;
+      for (const std::string& one : known) all += (all.empty() ? "" : ", ") + one;
+      throw Error("no-such-family", "no family has this name; there are " + all, name);
+    }
   std::vector<ChartFamily> families;
-  const auto add = [&](const char* name, const char* title, const std::function<Shape()>& shape, double gap) {
-    ChartFamily family{name, title, {}};
-    for (int i = 0; i < pairs; ++i) family.scenes.push_back(maker.pair(shape, gap));
-    families.push_back(std::move(family));
-  };
-  const auto box = [&] { return maker.box(); };
-  const auto hull = [&] { return maker.hull(32); };
-  const auto curved = [&] { return maker.curved(); };
-  add("boxes-apart", "boxes, 0.5 apart", box, 0.5);
-  add("boxes-shallow", "boxes, 0.02 deep", box, -0.02);
-  add("boxes-deep", "boxes, 0.4 deep", box, -0.4);
-  add("hulls-apart", "hulls of 32 vertices, 0.5 apart", hull, 0.5);
-  add("hulls-deep", "hulls of 32 vertices, 0.3 deep", hull, -0.3);
-  add("curved-apart", "round shapes mixed, 0.5 apart", curved, 0.5);
-  add("curved-near", "round shapes mixed, 1e-4 apart", curved, 1e-4);
-  add("curved-shallow", "round shapes mixed, 0.05 deep", curved, -0.05);
-  add("ellipsoids-near", "ellipsoids, 1e-4 apart", [&] { return maker.ellipsoid(); }, 1e-4);
+  for (std::size_t i = 0; i < std::size(recipes); ++i) {
+    const Recipe& recipe = recipes[i];
+    const bool chosen = names.empty() ? i < charted : std::find(names.begin(), names.end(), recipe.name) != names.end();
+    if (chosen) families.push_back({recipe.name, recipe.title, pairs_of(recipe, pairs)});
+  }
   return families;
 }
+
+std::vector<Scene> hull_pairs(int pairs, int vertices, double gap) {
+  Maker maker;
+  std::vector<Scene> out;
+  for (int i = 0; i < pairs; ++i) out.push_back(maker.pair([&] { return maker.hull(vertices); }, gap));
+  return out;
+}
+
+std::vector<Scene> ellipsoid_pairs(int pairs, double gap) { return pairs_of({"", "", gap, ellipsoid}, pairs); }
 
 std::vector<PriceRow> price_rows(int pairs) {
   std::vector<PriceRow> rows;

@@ -13,8 +13,15 @@ struct ChartFamily {
   std::vector<Scene> scenes;
 };
 
-/// `pairs` of each: boxes, hulls, capsules, curved shapes; apart, shallow, deep; random rotations.
-std::vector<ChartFamily> chart_families(int pairs);
+/// `pairs` of each, random rotations, placed by the signed distance: boxes, hulls of 32 to 1,000 vertices, capsules, curved shapes, apart and
+/// overlapping; faces that touch within 1e-9, slivers, sizes and places far apart; 2D. Those named, or all; throws Error for a name there is not.
+std::vector<ChartFamily> chart_families(int pairs, const std::vector<std::string>& names = {});
+/// The names of all, those of a full chart first.
+std::vector<std::string> chart_family_names();
+/// Hulls of so many vertices around a unit sphere, the gap between them given.
+std::vector<Scene> hull_pairs(int pairs, int vertices, double gap);
+/// Ellipsoids with the gap given.
+std::vector<Scene> ellipsoid_pairs(int pairs, double gap);
 
 /// What modelling too much costs: the same pairs, modelled as they need and as they do not.
 struct PriceRow {
