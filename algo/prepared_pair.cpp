@@ -13,9 +13,10 @@ class Prepared final : public PreparedPair {
       : a_(a.shape, scale), b_(b.shape, scale), pose_a_(a.pose), pose_b_(b.pose), scale_(scale), features_a_(a.shape), features_b_(b.shape) {}
 
   Result run(const Settings& settings, Query query) override {
+    thread_local Workspace<D, S> workspace;  // one a thread, not one a pair: it stays in the cache
     NoTrace trace;
     const bool sat = settings.name == MethodName::sat;
-    return PairSolver<D, S, NoTrace>(a_, b_, pose_a_, pose_b_, scale_, settings, workspace_, trace, sat ? features_a_.get() : nullptr, sat ? features_b_.get() : nullptr).run(query);
+    return PairSolver<D, S, NoTrace>(a_, b_, pose_a_, pose_b_, scale_, settings, workspace, trace, sat ? features_a_.get() : nullptr, sat ? features_b_.get() : nullptr).run(query);
   }
   void place(const Pose& a, const Pose& b) override { pose_a_ = a, pose_b_ = b; }
 
@@ -38,7 +39,6 @@ class Prepared final : public PreparedPair {
   Pose pose_a_, pose_b_;
   double scale_;
   LateFeatures features_a_, features_b_;
-  Workspace<D, S> workspace_;
 };
 
 template <int D>

@@ -9,6 +9,8 @@
 // which of several equally far points is returned, nothing else. Radii are no part of a core.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -135,17 +137,39 @@ struct VerticesCore {
 };
 
 /// Many vertices of a convex polytope: walk along edges uphill. On a convex polytope a vertex with no higher
-/// neighbour is a highest one.
+/// neighbour is a highest one. The walk starts at the last answer or at the farthest vertex along the nearest of 26 directions
+/// (axes, edges and corners of a cube), whichever is higher: it is short however many vertices there are.
 template <int D, class S>
 struct HullCore {
   std::vector<Vector<D, S>> vertices;
-  Vector<D, S> center() const { return mean_of(vertices); }
   std::vector<int> first_neighbour;  ///< of vertex i: neighbours[first_neighbour[i] .. first_neighbour[i + 1])
   std::vector<int> neighbours;
+  std::array<int, 27> start{};       ///< by `octant`; set by `find_starts`
+
+  Vector<D, S> center() const { return mean_of(vertices); }
+
+  /// Every component of d is 0, 1 or 2: clearly negative, small beside the largest, clearly positive.
+  static std::size_t octant(const Vector<D, S>& d) {
+    const S small = S(0.4) * d.cwiseAbs().maxCoeff();
+    std::size_t cell = 0;
+    for (int i = 0; i < D; ++i) cell = 3 * cell + (d[i] > small ? 2 : d[i] < -small ? 0 : 1);
+    return cell;
+  }
+
+  void find_starts() {
+    for (int cell = 0; cell < 27; ++cell) {
+      Vector<D, S> d;
+      for (int i = D - 1, rest = cell; i >= 0; --i, rest /= 3) d[i] = static_cast<S>(rest % 3 - 1);
+      const auto lower = [&](const Vector<D, S>& x, const Vector<D, S>& y) { return x.dot(d) < y.dot(d); };
+      start[static_cast<std::size_t>(cell)] = static_cast<int>(std::max_element(vertices.begin(), vertices.end(), lower) - vertices.begin());
+    }
+  }
 
   Vector<D, S> support(const Vector<D, S>& d, int& hint) const {
-    int best = hint >= 0 && hint < static_cast<int>(vertices.size()) ? hint : 0;
+    int best = start[octant(d)];
     S best_dot = vertices[best].dot(d);
+    if (hint >= 0 && hint < static_cast<int>(vertices.size()))
+      if (const S dot = vertices[hint].dot(d); dot >= best_dot) best = hint, best_dot = dot;
     for (int from = -1; from != best;) {
       from = best;
       for (int k = first_neighbour[from]; k < first_neighbour[from + 1]; ++k) {

@@ -43,6 +43,7 @@ void hill_climbing(benchmark::State& state) {
   core.vertices = vertices;
   core.first_neighbour = hull.first_neighbour;
   core.neighbours = hull.neighbours;
+  core.find_starts();
   query(state, core);
 }
 
