@@ -25,6 +25,7 @@
 #include "algo/closest_point_wide.h"
 #include "algo/orientation.h"
 #include "algo/simplex.h"
+#include "algo/voronoi.h"
 
 namespace gjkdbg {
 
@@ -79,7 +80,7 @@ struct SignedVolumes {
     const V n = ij.cross(jk);
     const S area = n.dot(n);
     constexpr S thin = S(1e-6);  // sine squared of the angle below which the normal is worth less than 1e-13 in double
-    if (!(area > thin * ij.dot(ij) * jk.dot(jk)) || !(area > thin * jk.dot(jk) * ki.dot(ki))) return wide(w, {i, j, k});
+    if (!(area > thin * ij.dot(ij) * jk.dot(jk)) || !(area > thin * jk.dot(jk) * ki.dot(ki))) return thin_triangle(w, {i, j, k});
     const S weight_i = n.dot(w[j].cross(jk)), weight_j = n.dot(w[k].cross(ki)), weight_k = n.dot(w[i].cross(ij));
     if (weight_i > 0 && weight_j > 0 && weight_k > 0) {
       Feature f;
@@ -102,9 +103,23 @@ struct SignedVolumes {
     return di <= dj ? (di <= dk ? w[i] : w[k]) : (dj <= dk ? w[j] : w[k]);
   }
 
-  static Feature wide(const V* w, const std::array<int, 3>& index) {
+  /// Ericson's regions, which need no normal and no volume, where they prove themselves: v is the closest point iff no vertex lies nearer along it,
+  /// v.w_i >= |v|^2 for all i, and by how much that fails bounds the error of |v| (times |v|). False where it fails by more than v rounds.
+  static bool self_evident(const V* w, int size, Feature& f) {
+    f = VoronoiRegions<D, S>::closest(w, size);
+    if (f.enclosed) return false;
+    S least = f.v_squared, far = 0;
+    for (int i = 0; i < size; ++i) least = std::min(least, f.v.dot(w[i])), far = std::max(far, w[i].dot(w[i]));
+    const S gap = f.v_squared - least;
+    constexpr S rounding = 16 * std::numeric_limits<S>::epsilon();
+    return gap * gap <= rounding * rounding * f.v_squared * far;
+  }
+
+  /// A triangle whose normal is worth little: in twice the precision where nothing simpler will do.
+  static Feature thin_triangle(const V* w, const std::array<int, 3>& index) {
     const std::array<V, 3> vertices{w[index[0]], w[index[1]], w[index[2]]};
-    Feature f = WideClosestPoint<D, S>::of_boundary(vertices.data(), 3);
+    Feature f;
+    if (!self_evident(vertices.data(), 3, f)) f = WideClosestPoint<D, S>::of_boundary(vertices.data(), 3);
     for (int i = 0; i < f.count; ++i) f.index[i] = index[f.index[i]];
     return f;
   }

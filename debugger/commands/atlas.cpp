@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
+#include <map>
 #include <memory>
 
 #include <nlohmann/json.hpp>
@@ -20,12 +21,14 @@ namespace {
 struct AtlasCommand {
   bool quick = false;
   std::string output = "atlas", gate;
+  std::vector<std::string> methods;
 
   int run() const {
     const auto kept = gate.empty() ? std::map<std::pair<std::string, std::string>, int>() : read_gate(gate);
+    const std::vector<Variant> chosen = variants(methods);
     make_folder(output);
     LabProgress progress;
-    const Atlas atlas = make_atlas(quick, std::ref(progress));
+    const Atlas atlas = make_atlas(quick, chosen, std::ref(progress));
     const std::filesystem::path folder(output);
     write_output((folder / "atlas.csv").string(), atlas_csv(atlas));
     write_output((folder / "atlas.json").string(), atlas_json(atlas));
@@ -40,9 +43,10 @@ struct AtlasCommand {
       std::cout << std::left << std::setw(4) << atlas.families[f].name << atlas.families[f].what << "\n";
       for (std::size_t m = 0; m < atlas.methods.size(); ++m) {
         const AtlasCell& cell = atlas.cells[f][m];
-        if (cell.verdict == Verdict::right) continue;
+        if (cell.verdict == Verdict::right || cell.verdict == Verdict::not_applicable) continue;
         std::cout << "      " << std::setw(26) << atlas.methods[m].name << std::setw(22) << verdict_names[static_cast<std::size_t>(cell.verdict)] << " error " << std::setprecision(2) << cell.worst_error << " at "
                   << cell.parameter << "\n";
+        if (!cell.why.empty()) std::cout << "        " << cell.why << "\n";
       }
     }
   }
@@ -80,7 +84,7 @@ struct AtlasCommand {
       for (std::size_t m = 0; m < atlas.methods.size(); ++m) {
         const auto was = kept.find({atlas.families[f].name, atlas.methods[m].name});
         const int now = static_cast<int>(atlas.cells[f][m].verdict);
-        if (was == kept.end() || now <= was->second) continue;
+        if (was == kept.end() || now <= was->second || atlas.cells[f][m].verdict == Verdict::not_applicable) continue;
         worse = true;
         std::cout << "worse than kept: " << atlas.families[f].name << ", " << atlas.methods[m].name << ": " << verdict_names[static_cast<std::size_t>(was->second)] << " -> " << verdict_names[static_cast<std::size_t>(now)] << "\n";
       }
@@ -94,6 +98,7 @@ void add_atlas(CLI::App& app, Status& status) {
   auto options = std::make_shared<AtlasCommand>();
   CLI::App* command = app.add_subcommand("atlas", "Stability where methods fail: heat map, table, JSON into a folder");
   command->add_flag("--quick", options->quick, "fewer cases");
+  command->add_option("--method", options->methods, "only methods whose names begin so: default, johnson, sat, …");
   command->add_option("-o,--output", options->output, "folder (atlas)");
   command->add_option("--gate", options->gate, "a kept atlas.json: exit 1 when any cell is worse");
   command->callback([options, &status] { status = options->run(); });

@@ -45,17 +45,19 @@ void draw_both(const std::function<std::string(const std::string&, const std::st
 namespace {
 
 struct ChartCommand {
-  bool quick = false;
+  ChartOptions options;
   std::string output = "chart";
 
   int run() const {
+    (void)variants(options.methods), (void)chart_families(0, options.families);  // a name there is not: before anything is made
     make_folder(output);
     LabProgress progress;
-    const Chart chart = make_chart(quick, std::ref(progress));
+    const Chart chart = make_chart(options, std::ref(progress));
     const std::filesystem::path folder(output);
     write_output((folder / "chart.csv").string(), chart_csv(chart));
     write_output((folder / "chart.json").string(), chart_json(chart));
     draw_both([&](const std::string& terminal, const std::string& file) { return chart_gnuplot(chart, terminal, file); }, folder / "chart");
+    draw_both([&](const std::string& terminal, const std::string& file) { return gap_gnuplot(chart, terminal, file); }, folder / "gap");
     print(chart);
     return exit_done;
   }
@@ -72,6 +74,10 @@ struct ChartCommand {
     for (const PricePoint& p : chart.price)
       std::cout << "  " << std::left << std::setw(42) << p.what << std::right << std::setw(8) << std::fixed << std::setprecision(0) << p.nanoseconds << std::defaultfloat << std::setprecision(3) << " ns, "
                 << p.supports << " supports, worst error " << std::setprecision(2) << p.worst_error << "\n";
+    if (!chart.ladder.empty()) std::cout << "Iterations by distance (in brackets: Montaut et al. 2024, table III a)\n";
+    for (const LadderPoint& p : chart.ladder)
+      std::cout << "  " << std::left << std::setw(16) << p.shapes << std::setw(10) << p.method << std::right << std::setw(8) << std::defaultfloat << p.distance << std::fixed << std::setprecision(1) << std::setw(8)
+                << p.mean << " +- " << p.deviation << (p.published.empty() ? "" : "  (" + p.published + ")") << "\n";
     if (!chart.motion.empty()) std::cout << "Motion: casts by tolerance (error: how early), integrators by step (error: energy)\n";
     for (const MotionPoint& p : chart.motion)
       std::cout << "  " << std::left << std::setw(16) << p.family << std::setw(26) << p.method << std::setw(8) << std::defaultfloat << p.parameter << std::right << std::setw(9) << std::fixed << std::setprecision(0)
@@ -84,7 +90,9 @@ struct ChartCommand {
 void add_chart(CLI::App& app, Status& status) {
   auto options = std::make_shared<ChartCommand>();
   CLI::App* command = app.add_subcommand("chart", "Speed against accuracy: SVG, PNG, CSV, JSON into a folder");
-  command->add_flag("--quick", options->quick, "fewer pairs and tolerances");
+  command->add_flag("--quick", options->options.quick, "fewer pairs and tolerances");
+  command->add_option("--families", options->options.families, "only these, by name")->delimiter(',');
+  command->add_option("--methods", options->options.methods, "only methods whose names begin so: default, johnson, sat, …")->delimiter(',');
   command->add_option("-o,--output", options->output, "folder (chart)");
   command->callback([options, &status] { status = options->run(); });
 }

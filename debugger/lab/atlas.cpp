@@ -2,46 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
 #include <limits>
 
 #include <nlohmann/json.hpp>
 
 #include "algo/solve.h"
+#include "debugger/lab/child.h"
 #include "recordings/json_writing.h"
+#include "shapes/error.h"
 
 namespace gjkdbg {
 namespace {
-
-/// Judges one answer. `unit` is the rounding of the method's scalar; the exact answer itself carries a few roundings of the sizes.
-Verdict judge(const Result& r, double exact, double size, double unit, double tolerance, double& error) {
-  const double value = *r.signed_distance;
-  if (!std::isfinite(value)) return error = std::numeric_limits<double>::infinity(), Verdict::not_finite;
-  const double scale = std::max(size, std::abs(exact));
-  error = std::abs(value - exact) / scale;
-  const bool class_lost = r.intersecting != (exact <= 0);
-  if (class_lost && std::abs(exact) > 64 * unit * scale) return Verdict::wrong_class;
-  const double good = std::max(unit > 1e-10 ? 1e-5 : 1e-9, 2 * tolerance);  // what was asked for
-  if (error <= 4 * unit && !class_lost) return Verdict::right;
-  if (error <= good) return class_lost || error > 64 * unit ? Verdict::right_within_rounding : Verdict::right;
-  if (r.status == "iteration_limit" || r.status == "stalled") return Verdict::gave_up;
-  const double slack = 64 * unit * scale;
-  const bool excluded = exact < *r.lower_bound - slack || exact > *r.upper_bound + slack;
-  return excluded ? Verdict::lied : Verdict::wrong_value;
-}
-
-AtlasCell sweep(const AtlasFamily& family, const Variant& variant) {
-  AtlasCell cell;
-  bool first = true;
-  const double unit = variant.method.scalar == Scalar::float_precision ? 1.2e-7 : 2.3e-16;
-  for (const AtlasCase& one : family.cases) {
-    double error = 0;
-    const Settings settings = resolve_settings(variant.method, one.scene);
-    const Verdict verdict = judge(solve(one.scene, settings), one.exact, scene_size(one.scene), unit, settings.tolerance, error);
-    if (first || verdict > cell.verdict || (verdict == cell.verdict && error > cell.worst_error)) cell = {verdict, error, one.parameter, one.scene};
-    first = false;
-  }
-  return cell;
-}
 
 std::string number(double x) {
   char text[32];
@@ -49,10 +23,150 @@ std::string number(double x) {
   return text;
 }
 
+/// What was answered, of whichever method.
+struct Answered {
+  bool overlap = false, known = true;  ///< known: the value is
+  double value = 0, lower = 0, upper = 0;
+  bool bounded = false, unfinished = false;
+};
+
+/// Judges one answer. `unit` is the rounding of the method's scalar; the exact answer itself carries a few roundings of the sizes.
+Verdict judge(const Answered& r, double exact, double size, double unit, double tolerance, double& error) {
+  error = 0;
+  const double scale = std::max(size, std::abs(exact));
+  const bool class_lost = r.overlap != (exact <= 0);
+  if (class_lost && std::abs(exact) > 64 * unit * scale) return error = std::abs((r.known ? r.value : 0) - exact) / scale, Verdict::wrong_class;
+  if (!r.known) return class_lost ? Verdict::right_within_rounding : Verdict::right;
+  if (!std::isfinite(r.value)) return error = std::numeric_limits<double>::infinity(), Verdict::not_finite;
+  error = std::abs(r.value - exact) / scale;
+  const double good = std::max(unit > 1e-10 ? 1e-5 : 1e-9, 2 * tolerance);  // what was asked for
+  if (error <= 4 * unit && !class_lost) return Verdict::right;
+  if (error <= good) return class_lost || error > 64 * unit ? Verdict::right_within_rounding : Verdict::right;
+  if (r.unfinished) return Verdict::gave_up;
+  const double slack = 64 * unit * scale;
+  const bool admitted = r.bounded && exact >= r.lower - slack && exact <= r.upper + slack;
+  return admitted ? Verdict::wrong_value : Verdict::lied;
+}
+
+Answered ask_ours(const Scene& scene, const Settings& settings) {
+  const Result r = solve(scene, settings);
+  return {r.intersecting, true, *r.signed_distance, *r.lower_bound, *r.upper_bound, true, r.status == "iteration_limit" || r.status == "stalled"};
+}
+
+Answered ask_theirs(const Scene& scene, const Peer& peer) {
+  const auto pair = peer.prepare(scene, 1e-9);
+  const PeerAnswer answer = pair->ask();
+  return {answer.overlap, answer.signed_distance.has_value(), answer.signed_distance.value_or(0), 0, 0, false, false};
+}
+
+struct Judged {
+  Verdict verdict = Verdict::not_applicable;
+  double error = 0, value = 0;
+};
+
+Judged judge_case(const Variant& variant, const Scene& scene, double exact) {
+  Judged out;
+  if (variant.peer) {
+    if (!variant.peer->prepare(scene, 1e-9)) return out;
+    Answered answered;
+    const ChildEnd end = in_child<Answered>(0.5, answered, [&](Answered& a) { a = ask_theirs(scene, *variant.peer); });
+    if (end != ChildEnd::finished) return {Verdict::crashed, 0, 0};
+    const double unit = variant.name.ends_with("(float)") ? 1.2e-7 : 2.3e-16;
+    out.verdict = judge(answered, exact, scene_size(scene), unit, 1e-6, out.error);  // libraries stop at 1e-6 or so, not at rounding
+    return out.value = answered.value, out;
+  }
+  if (!applies(variant, scene)) return out;
+  const Settings settings = resolve_settings(variant.method, scene);
+  const Answered answered = ask_ours(scene, settings);
+  const double unit = settings.scalar == Scalar::float_precision ? 1.2e-7 : 2.3e-16;
+  out.verdict = judge(answered, exact, scene_size(scene), unit, settings.tolerance, out.error);
+  return out.value = answered.value, out;
+}
+
+/// Why a method fails like this.
+std::string cause(const Variant& variant, Verdict verdict) {
+  if (variant.peer) {
+    if (verdict == Verdict::crashed) return "an assertion, a broken address or an endless loop inside the library";
+    if (variant.name == "Bullet (float)") return "its scalars are single, and its gap of rest is an absolute length";
+    if (variant.name == "libccd MPR") return "MPR leaves along the line between the centres: no shortest way out";
+    if (variant.name == "ODE") return "its routines are made for contacts of bodies that move: depth along one of a few axes";
+    return "its stopping rules are absolute lengths, and its simplex is judged in plain arithmetic";
+  }
+  if (variant.method.name == MethodName::mpr) return "MPR leaves through the portal that the line between the centres meets: an upper bound of the depth, and it says so";
+  if (variant.method.scalar == Scalar::float_precision) return "single precision carries 7 digits of the bodies' sizes, and the answer lies below them";
+  return verdict == Verdict::gave_up ? "its steps no longer make progress, and it says so" : "rounding decides, and nothing notices";
+}
+
+std::string sentence(const AtlasFamily& family, const Variant& variant, const AtlasCell& cell) {
+  static constexpr std::array<const char*, 9> said{"", "", "gives up", "is off, and its bounds admit it", "is off, and says it is not", "mistakes apart for overlapping", "answers no number", "does not come back", ""};
+  std::string verdict = said[static_cast<std::size_t>(cell.verdict)];
+  if (cell.verdict == Verdict::wrong_class && cell.exact <= 0) verdict = "mistakes overlapping for apart";
+  return variant.name + " " + verdict + " (" + number(cell.value) + " for " + number(cell.exact) + "): " + cause(variant, cell.verdict) + ". Here: " + family.what + ".";
+}
+
+/// The simplest scene that still fails like this: every number of the poses and points rounded to as few digits as do, body 0 brought to the origin.
+/// A step is kept when the verdict against the reference stays as it is.
+Scene shrunk(const Variant& variant, Scene scene, Verdict verdict) {
+  const auto still = [&](const Scene& candidate) {
+    try {
+      for (const Body& body : candidate.bodies) validate(body.shape, candidate.dimension);
+      return judge_case(variant, candidate, reference(candidate).signed_distance).verdict == verdict;
+    } catch (const Error&) {
+      return false;
+    }
+  };
+  const auto attempt = [&](const std::function<void(Scene&)>& change) {
+    Scene candidate = scene;
+    change(candidate);
+    if (still(candidate)) scene = std::move(candidate);
+  };
+  if (!still(scene)) return scene;
+  attempt([](Scene& s) {
+    const AnyVector offset = s.bodies[0].pose.position;
+    for (Body& body : s.bodies) body.pose.position -= offset;
+  });
+  const auto drop_points = [&](std::size_t b) {
+    const auto* set = std::get_if<PointSet>(&scene.bodies[b].shape.geometry);
+    for (std::size_t i = set ? set->points.size() : 0; i-- > 1;)
+      attempt([&](Scene& s) {
+        auto& points = std::get<PointSet>(s.bodies[b].shape.geometry).points;
+        if (i < points.size()) points.erase(points.begin() + static_cast<std::ptrdiff_t>(i));
+      });
+  };
+  for (std::size_t b = 0; b < 2; ++b) drop_points(b);
+  for (int digits = 1; digits <= 8; ++digits) {
+    const auto rounded = [&](double x) {
+      char text[40];
+      std::snprintf(text, sizeof text, "%.*g", digits, x);
+      return std::strtod(text, nullptr);
+    };
+    for (std::size_t b = 0; b < 2; ++b)
+      for (int i = 0; i < scene.dimension; ++i) attempt([&](Scene& s) { s.bodies[b].pose.position[i] = rounded(s.bodies[b].pose.position[i]); });
+  }
+  return scene;
+}
+
+AtlasCell sweep(const AtlasFamily& family, const Variant& variant) {
+  AtlasCell cell;
+  cell.verdict = Verdict::not_applicable;
+  bool first = true;
+  for (const AtlasCase& one : family.cases) {
+    const Judged judged = judge_case(variant, one.scene, one.exact);
+    if (judged.verdict == Verdict::not_applicable) continue;
+    if (first || judged.verdict > cell.verdict || (judged.verdict == cell.verdict && judged.error > cell.worst_error))
+      cell = {judged.verdict, judged.error, one.parameter, judged.value, one.exact, one.scene, ""};
+    first = false;
+  }
+  if (!failed(cell.verdict)) return cell;
+  cell.why = sentence(family, variant, cell);
+  if (cell.verdict != Verdict::crashed) cell.scene = shrunk(variant, cell.scene, cell.verdict);
+  return cell;
+}
+
 }  // namespace
 
-Atlas make_atlas(bool quick, const std::function<bool(double)>& progress) {
-  Atlas atlas{atlas_families(quick), variants(), {}};
+Atlas make_atlas(bool quick, const std::vector<Variant>& methods, const std::function<bool(double)>& progress) {
+  Atlas atlas{atlas_families(quick), methods, {}};
   for (std::size_t i = 0; i < atlas.families.size(); ++i) {
     std::vector<AtlasCell> row;
     for (const Variant& variant : atlas.methods) row.push_back(sweep(atlas.families[i], variant));
@@ -83,11 +197,12 @@ std::string atlas_json(const Atlas& atlas) {
       const AtlasCell& cell = atlas.cells[f][m];
       nlohmann::ordered_json entry{{"method", atlas.methods[m].name}, {"verdict", verdict_names[static_cast<std::size_t>(cell.verdict)]}, {"parameter", cell.parameter}};
       entry["worst_error"] = std::isfinite(cell.worst_error) ? nlohmann::ordered_json(cell.worst_error) : nlohmann::ordered_json(nullptr);
-      if (cell.verdict >= Verdict::gave_up) {
+      if (failed(cell.verdict)) {
+        entry["why"] = cell.why;
         SceneFile worst;
         worst.scene = cell.scene;
         worst.scene.name = atlas.families[f].name + ", " + atlas.methods[m].name;
-        worst.method = atlas.methods[m].method;
+        worst.method = atlas.methods[m].method;  // of another library: the default, to compare with
         entry["scene"] = scene_to_json(worst);
       }
       family["cells"].push_back(entry);
@@ -100,18 +215,18 @@ std::string atlas_json(const Atlas& atlas) {
 std::string atlas_gnuplot(const Atlas& atlas, const std::string& terminal, const std::string& file) {
   std::string out = "set terminal " + terminal + "\nset output '" + file + "'\nset title 'Stability where methods fail: the worst of each family' font ',14'\nset rmargin 34\n";
   // Right is blue-green, towards vermilion the more serious; the digit says it too.
-  out += "set palette maxcolors 7 defined (0 '#009E73', 1 '#9BD7C3', 2 '#F0E442', 3 '#E69F00', 4 '#CC79A7', 5 '#D55E00', 6 '#000000')\nset cbrange [-0.5:6.5]\nset cbtics (";
+  out += "set palette maxcolors 9 defined (0 '#009E73', 1 '#9BD7C3', 2 '#F0E442', 3 '#E69F00', 4 '#CC79A7', 5 '#D55E00', 6 '#7A3B00', 7 '#000000', 8 '#E6E6E6')\nset cbrange [-0.5:8.5]\nset cbtics (";
   for (std::size_t i = 0; i < verdict_names.size(); ++i) out += (i > 0 ? ", " : "") + std::string("'") + verdict_names[i] + "' " + std::to_string(i);
   out += ")\nset xrange [-0.5:" + std::to_string(atlas.methods.size()) + "-0.5]\nset yrange [" + std::to_string(atlas.families.size()) + "-0.5:-0.5]\nset xtics rotate by 20 right (";
   for (std::size_t m = 0; m < atlas.methods.size(); ++m) out += (m > 0 ? ", " : "") + std::string("'") + atlas.methods[m].name + "' " + std::to_string(m);
   out += ")\nset ytics (";
   for (std::size_t f = 0; f < atlas.families.size(); ++f) out += (f > 0 ? ", " : "") + std::string("'") + atlas.families[f].name + "' " + std::to_string(f);
-  out += ")\nunset key\nplot '-' using 1:2:3 with image, '-' using 1:2:3 with labels font ',9'\n";
+  out += ")\nunset key\nplot '-' using 1:2:3 with image, '-' using 1:2:3 with labels font ',8'\n";
   for (std::size_t f = 0; f < atlas.families.size(); ++f)
     for (std::size_t m = 0; m < atlas.methods.size(); ++m) out += std::to_string(m) + " " + std::to_string(f) + " " + std::to_string(static_cast<int>(atlas.cells[f][m].verdict)) + "\n";
   out += "e\n";
   for (std::size_t f = 0; f < atlas.families.size(); ++f)
-    for (std::size_t m = 0; m < atlas.methods.size(); ++m) out += std::to_string(m) + " " + std::to_string(f) + " " + number(atlas.cells[f][m].worst_error) + "\n";
+    for (std::size_t m = 0; m < atlas.methods.size(); ++m) out += std::to_string(m) + " " + std::to_string(f) + " " + (atlas.cells[f][m].verdict == Verdict::not_applicable ? "-" : number(atlas.cells[f][m].worst_error)) + "\n";
   return out + "e\n";
 }
 

@@ -17,9 +17,12 @@ enum class Verdict {
   wrong_value,            ///< off, with bounds that admit it
   lied,                   ///< said converged, with bounds that exclude the truth
   wrong_class,            ///< apart for overlapping, or the other way round
-  not_finite
+  not_finite,
+  crashed,                ///< or did not end: another library, in a process of its own
+  not_applicable          ///< the method does not take such bodies, or says nothing but yes and no here
 };
-inline constexpr std::array<const char*, 7> verdict_names{"right", "right-within-rounding", "gave-up", "wrong-value", "lied", "wrong-class", "not-finite"};
+inline constexpr std::array<const char*, 9> verdict_names{"right", "right-within-rounding", "gave-up", "wrong-value", "lied", "wrong-class", "not-finite", "crashed", "not-applicable"};
+inline bool failed(Verdict verdict) { return verdict >= Verdict::gave_up && verdict != Verdict::not_applicable; }
 
 struct AtlasCase {
   double parameter = 0;
@@ -37,7 +40,9 @@ struct AtlasCell {
   Verdict verdict = Verdict::right;
   double worst_error = 0;  ///< relative to the size
   double parameter = 0;    ///< of the worst case
-  Scene scene;             ///< the worst case
+  double value = 0, exact = 0;  ///< what it answered there, and the truth
+  Scene scene;             ///< the worst case; where the cell failed, made as simple as still fails the same way
+  std::string why;         ///< a sentence, where the cell failed
 };
 
 struct Atlas {
@@ -45,7 +50,8 @@ struct Atlas {
   std::vector<Variant> methods;
   std::vector<std::vector<AtlasCell>> cells;  ///< [family][method]; fewer families when interrupted
 };
-Atlas make_atlas(bool quick, const std::function<bool(double)>& progress);
+/// Of these methods; `progress(share done)` returns false to stop.
+Atlas make_atlas(bool quick, const std::vector<Variant>& methods, const std::function<bool(double)>& progress);
 
 std::string atlas_csv(const Atlas& atlas);
 std::string atlas_json(const Atlas& atlas);

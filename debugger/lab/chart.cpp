@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <map>
 
 #include "algo/prepared_pair.h"
 #include "algo/solve.h"
-#include "recordings/json_writing.h"
+#include "debugger/lab/child.h"
 
 namespace gjkdbg {
 namespace {
-
-constexpr double smallest_error = 1e-17;  ///< what an error of zero is drawn at
 
 double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
@@ -24,41 +20,103 @@ using Pairs = std::vector<std::unique_ptr<PreparedPair>>;
 
 std::unique_ptr<PreparedPair> prepared(const Scene& scene, Scalar scalar) { return prepare(scene.bodies[0], scene.bodies[1], scene.dimension, scalar); }
 
-/// Nanoseconds a query: the median of several rounds over all pairs, after one to warm up.
-double time_of(Pairs& pairs, const std::vector<Settings>& settings, Query query, int rounds) {
+/// Nanoseconds a query: the median of several rounds of `ask(i)` over all pairs, after one to warm up.
+template <class Ask>
+double time_of(std::size_t pairs, int rounds, const Ask& ask) {
   std::vector<double> times;
   for (int round = 0; round <= rounds; ++round) {
     const auto begin = std::chrono::steady_clock::now();
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      const Result result = pairs[i]->run(settings[i], query);
-      asm volatile("" : : "g"(&result) : "memory");  // the answer counts as used
+    for (std::size_t i = 0; i < pairs; ++i) {
+      const auto answer = ask(i);
+      asm volatile("" : : "g"(&answer) : "memory");  // the answer counts as used
     }
     const std::chrono::duration<double, std::nano> elapsed = std::chrono::steady_clock::now() - begin;
-    if (round > 0) times.push_back(elapsed.count() / static_cast<double>(pairs.size()));
+    if (round > 0) times.push_back(elapsed.count() / static_cast<double>(pairs));
   }
   return median(times);
 }
 
-ChartPoint measure(const ChartFamily& family, const std::vector<Reference>& references, Pairs& pairs, const Variant& variant, double tolerance, int rounds) {
-  ChartPoint point{variant.name, tolerance, 0, 0, 0, 0, 0, 0, false};
+/// What is right about the answers of one method to one family.
+class Judgement {
+ public:
+  Judgement(const ChartFamily& family, const std::vector<Reference>& references, ChartPoint& point) : family_(family), references_(references), point_(point) {}
+
+  void add(std::size_t i, bool overlap, std::optional<double> value) {
+    const double truth = references_[i].signed_distance, size = scene_size(family_.scenes[i]);
+    const double error = value ? references_[i].error(*value, size) : 0;
+    const bool class_wrong = overlap != (truth <= 0) && std::abs(truth) > 1e-6 * size;
+    point_.wrong += class_wrong || error > 1e-3;
+    if (!value) return;
+    if (errors_.empty() || error > point_.worst_error) point_.worst = static_cast<int>(i), point_.worst_error = error;
+    errors_.push_back(error);
+  }
+  void add_gap(double gap) {
+    gaps_.push_back(gap);
+    point_.worst_gap = std::max(point_.worst_gap, gap);
+  }
+  /// False: nothing to show, no answer had a value.
+  bool finish() {
+    if (!gaps_.empty()) point_.median_gap = median(gaps_);
+    if (errors_.empty()) return false;
+    point_.median_error = median(errors_);
+    return true;
+  }
+
+ private:
+  const ChartFamily& family_;
+  const std::vector<Reference>& references_;
+  ChartPoint& point_;
+  std::vector<double> errors_, gaps_;
+};
+
+/// False: the method does not take these bodies.
+bool measure(const ChartFamily& family, const std::vector<Reference>& references, const Pairs& pairs, const Variant& variant, int rounds, ChartPoint& point) {
   std::vector<Settings> settings;
-  std::vector<double> errors;
+  Judgement judgement(family, references, point);
   for (std::size_t i = 0; i < family.scenes.size(); ++i) {
+    if (!applies(variant, family.scenes[i])) return false;
     Method method = variant.method;
-    method.tolerance = tolerance;
+    method.tolerance = point.tolerance;
     settings.push_back(resolve_settings(method, family.scenes[i]));
     const Result r = pairs[i]->run(settings.back(), Query::penetration);
-    const double size = scene_size(family.scenes[i]), error = references[i].error(*r.signed_distance, size);
-    errors.push_back(error);
-    point.worst_gap = std::max(point.worst_gap, (*r.upper_bound - *r.lower_bound) / size);
+    judgement.add(i, r.intersecting, r.signed_distance);
+    judgement.add_gap((*r.upper_bound - *r.lower_bound) / scene_size(family.scenes[i]));
     point.iterations += static_cast<double>(r.iterations) / static_cast<double>(family.scenes.size());
-    const bool class_wrong = r.intersecting != (references[i].signed_distance <= 0) && std::abs(references[i].signed_distance) > 1e-6 * size;
-    point.wrong += class_wrong || error > 1e-3;
   }
-  point.worst_error = *std::max_element(errors.begin(), errors.end());
-  point.median_error = median(errors);
-  point.nanoseconds = time_of(pairs, settings, Query::penetration, rounds);
-  return point;
+  point.nanoseconds = time_of(pairs.size(), rounds, [&](std::size_t i) { return pairs[i]->run(settings[i], Query::penetration); });
+  return judgement.finish();
+}
+
+/// What a child process measures of another library.
+struct Measured {
+  double nanoseconds = 0, worst_error = 0, median_error = 0;
+  int wrong = 0, worst = 0;
+  bool answers = false;
+};
+
+/// Another library, in a process of its own: it may crash. False: it does not take all these bodies, crashes, or only says yes and no.
+bool measure_peer(const ChartFamily& family, const std::vector<Reference>& references, const Peer& peer, int rounds, ChartPoint& point) {
+  std::vector<std::unique_ptr<PeerPair>> pairs;
+  for (const Scene& scene : family.scenes) {
+    pairs.push_back(peer.prepare(scene, point.tolerance));
+    if (!pairs.back()) return false;
+  }
+  Measured measured;
+  const ChildEnd end = in_child<Measured>(20, measured, [&](Measured& m) {
+    ChartPoint own;
+    Judgement judgement(family, references, own);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const PeerAnswer answer = pairs[i]->ask();
+      judgement.add(i, answer.overlap, answer.signed_distance);
+    }
+    m.answers = judgement.finish();
+    m.nanoseconds = time_of(pairs.size(), rounds, [&](std::size_t i) { return pairs[i]->ask(); });
+    m.worst_error = own.worst_error, m.median_error = own.median_error, m.wrong = own.wrong, m.worst = own.worst;
+  });
+  if (end != ChildEnd::finished || !measured.answers) return false;
+  point.nanoseconds = measured.nanoseconds, point.worst_error = measured.worst_error, point.median_error = measured.median_error;
+  point.wrong = measured.wrong, point.worst = measured.worst;
+  return true;
 }
 
 void mark_front(std::vector<ChartPoint>& points) {
@@ -90,16 +148,63 @@ PricePoint price_of(const std::vector<PriceRow>& rows, const PriceRow& row, int 
     point.supports += static_cast<double>(r.support_calls) / static_cast<double>(row.scenes.size());
     if (r.signed_distance && row.query == Query::penetration) point.worst_error = std::max(point.worst_error, truth[i].error(*r.signed_distance, scene_size(row.scenes[i])));
   }
-  point.nanoseconds = time_of(pairs, settings, row.query, rounds);
+  point.nanoseconds = time_of(pairs.size(), rounds, [&](std::size_t i) { return pairs[i]->run(settings[i], row.query); });
   return point;
+}
+
+/// The points of one method on one family, tolerance by tolerance.
+void measure_family(const ChartFamily& family, const std::vector<Reference>& references, const Variant& variant, const std::vector<double>& tolerances, int rounds, std::vector<ChartPoint>& out) {
+  Pairs pairs;
+  if (!variant.peer)
+    for (const Scene& scene : family.scenes) pairs.push_back(prepared(scene, *variant.method.scalar));
+  const bool single = !variant.peer && variant.method.scalar == Scalar::float_precision;
+  for (const double tolerance : tolerances) {
+    if (single && tolerance < 1e-7) continue;
+    if (variant.peer && ((!variant.peer->has_tolerance && tolerance != tolerances.front()) || tolerance < 1e-10)) continue;  // theirs below that no longer end
+    ChartPoint point;
+    point.variant = variant.name, point.tolerance = tolerance;
+    if (variant.peer ? measure_peer(family, references, *variant.peer, rounds, point) : measure(family, references, pairs, variant, rounds, point)) out.push_back(point);
+    else return;
+  }
+}
+
+/// GJK's iterations by distance, with plain steps and both momenta, stopped where the paper stops: at a duality gap 2 v.(v - w) of 1e-8. With the
+/// plane's bound p = v.w / |v| that is |v| - p <= 5e-9 / |v|, relative to |v| a tolerance of 5e-9 / |v|^2.
+std::vector<LadderPoint> ladder(bool quick) {
+  struct Rung { double distance; const char *plain, *nesterov; };
+  static constexpr Rung rungs[] = {{-0.05, "6 +- 2", "6 +- 3"}, {-0.001, "", ""}, {1e-4, "", ""}, {0.001, "16 +- 5", "7 +- 2"}, {0.1, "", ""}, {1, "4 +- 1", "13 +- 4"}};
+  std::vector<LadderPoint> out;
+  const auto add = [&](const std::string& shapes, const std::vector<Scene>& scenes, const Rung& rung, bool published) {
+    for (const int momentum : {0, 1, 2}) {
+      Method method;
+      method.name = momentum == 0 ? MethodName::gjk : MethodName::gjk_accelerated;
+      method.acceleration = momentum == 2 ? Acceleration::polyak : Acceleration::nesterov;
+      method.penetration = Penetration::none;
+      method.tolerance = std::min(0.5, 5e-9 / (rung.distance * rung.distance));
+      double sum = 0, squares = 0;
+      for (const Scene& scene : scenes) {
+        const double k = prepared(scene, Scalar::double_precision)->run(resolve_settings(method, scene), Query::penetration).iterations;
+        sum += k, squares += k * k;
+      }
+      const double n = static_cast<double>(scenes.size()), mean = sum / n;
+      static constexpr const char* names[] = {"plain", "Nesterov", "Polyak"};
+      out.push_back({shapes, names[momentum], rung.distance, mean, std::sqrt(std::max(0.0, squares / n - mean * mean)),
+                     published && momentum < 2 ? (momentum == 0 ? rung.plain : rung.nesterov) : ""});
+    }
+  };
+  for (const Rung& rung : rungs) add("ellipsoids", ladder_ellipsoids(quick ? 60 : 400, rung.distance), rung, true);
+  for (const int vertices : {33, 141, 626, 2500})
+    for (const Rung& rung : {rungs[3], rungs[5]}) add("hulls of " + std::to_string(vertices), hull_pairs(quick ? 5 : 20, vertices, rung.distance), rung, false);
+  return out;
 }
 
 }  // namespace
 
-Chart make_chart(bool quick, const std::function<bool(double)>& progress) {
-  const int count = quick ? 60 : 400, rounds = quick ? 3 : 9;
-  const std::vector<ChartFamily> families = chart_families(count);
-  const std::vector<Variant> all = variants();
+Chart make_chart(const ChartOptions& options, const std::function<bool(double)>& progress) {
+  const bool quick = options.quick, usual = options.families.empty() && options.methods.empty();
+  const int count = quick ? 40 : 300, rounds = quick ? 3 : 7;
+  const std::vector<Variant> all = variants(options.methods);
+  const std::vector<ChartFamily> families = chart_families(count, options.families);
   const std::vector<double> tolerances = quick ? std::vector<double>{1e-2, 1e-6, 1e-10, 1e-14} : std::vector<double>{1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14};
   const double total = static_cast<double>(families.size() * all.size());
   double done = 0;
@@ -107,117 +212,21 @@ Chart make_chart(bool quick, const std::function<bool(double)>& progress) {
   for (const ChartFamily& family : families) {
     std::vector<Reference> references;
     for (const Scene& scene : family.scenes) references.push_back(reference(scene));
-    chart.panels.push_back({family.name, family.title, static_cast<int>(family.scenes.size()), {}});
+    chart.panels.push_back({family.name, family.title, static_cast<int>(family.scenes.size()), {}, family.scenes});
     for (const Variant& variant : all) {
-      const bool single = variant.method.scalar == Scalar::float_precision;
-      Pairs pairs;
-      for (const Scene& scene : family.scenes) pairs.push_back(prepared(scene, *variant.method.scalar));
-      for (const double tolerance : tolerances)
-        if (!single || tolerance >= 1e-7) chart.panels.back().points.push_back(measure(family, references, pairs, variant, tolerance, rounds));
+      measure_family(family, references, variant, tolerances, rounds, chart.panels.back().points);
       if (!progress(++done / (total + 1))) return mark_front(chart.panels.back().points), chart;
     }
     mark_front(chart.panels.back().points);
   }
-  const std::vector<PriceRow> rows = price_rows(count);
-  for (const PriceRow& row : rows) chart.price.push_back(price_of(rows, row, rounds));
-  chart.motion = motion_points(quick);
+  if (usual) {
+    const std::vector<PriceRow> rows = price_rows(count);
+    for (const PriceRow& row : rows) chart.price.push_back(price_of(rows, row, rounds));
+    chart.ladder = ladder(quick);
+    chart.motion = motion_points(quick);
+  }
   progress(1);
   return chart;
-}
-
-namespace {
-
-std::string number(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x);
-  return text;
-}
-
-}  // namespace
-
-std::string chart_csv(const Chart& chart) {
-  std::string out = "family,pairs,method,tolerance,nanoseconds,worst_error,median_error,worst_gap,iterations,wrong,front\n";
-  for (const ChartPanel& panel : chart.panels)
-    for (const ChartPoint& p : panel.points)
-      out += panel.name + "," + std::to_string(panel.pairs) + ",\"" + p.variant + "\"," + number(p.tolerance) + "," + number(p.nanoseconds) + "," + number(p.worst_error) + "," + number(p.median_error) + "," +
-             number(p.worst_gap) + "," + number(p.iterations) + "," + std::to_string(p.wrong) + "," + (p.front ? "1" : "0") + "\n";
-  return out;
-}
-
-std::string chart_json(const Chart& chart) {
-  std::string out = "{\"format\": \"gjk-chart\", \"version\": 1, \"generator\": ";
-  append_string(out, generator_name());
-  out += ",\n\"families\": [";
-  const auto field = [&](const char* name, double x) {
-    out += std::string(", \"") + name + "\": ";
-    append_number(out, x);
-  };
-  for (std::size_t i = 0; i < chart.panels.size(); ++i) {
-    const ChartPanel& panel = chart.panels[i];
-    out += (i > 0 ? "," : "") + std::string("\n {\"name\": \"") + panel.name + "\", \"title\": \"" + panel.title + "\", \"pairs\": " + std::to_string(panel.pairs) + ", \"points\": [";
-    for (std::size_t k = 0; k < panel.points.size(); ++k) {
-      const ChartPoint& p = panel.points[k];
-      out += (k > 0 ? "," : "") + std::string("\n  {\"method\": \"") + p.variant + "\"";
-      field("tolerance", p.tolerance), field("nanoseconds", p.nanoseconds), field("worst_error", p.worst_error), field("median_error", p.median_error);
-      field("worst_gap", p.worst_gap), field("iterations", p.iterations), field("wrong", p.wrong);
-      out += p.front ? ", \"front\": true}" : ", \"front\": false}";
-    }
-    out += "]}";
-  }
-  out += "],\n\"price\": [";
-  for (std::size_t i = 0; i < chart.price.size(); ++i) {
-    const PricePoint& p = chart.price[i];
-    out += (i > 0 ? "," : "") + std::string("\n {\"what\": \"") + p.what + "\"";
-    field("nanoseconds", p.nanoseconds), field("worst_error", p.worst_error), field("supports", p.supports);
-    out += "}";
-  }
-  out += "],\n\"motion\": [";
-  for (std::size_t i = 0; i < chart.motion.size(); ++i) {
-    const MotionPoint& p = chart.motion[i];
-    out += (i > 0 ? "," : "") + std::string("\n {\"family\": \"") + p.family + "\", \"method\": \"" + p.method + "\"";
-    field("parameter", p.parameter), field("nanoseconds", p.nanoseconds), field("worst_error", p.worst_error), field("late", p.late), field("supports", p.queries);
-    out += "}";
-  }
-  return out + "]}\n";
-}
-
-std::string chart_gnuplot(const Chart& chart, const std::string& terminal, const std::string& file) {
-  static const char* const colours[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7"};
-  const std::size_t rows = (chart.panels.size() + 2) / 3;
-  std::string out = "set terminal " + terminal + "\nset output '" + file + "'\nset multiplot layout " + std::to_string(rows) + ",3 title 'Time a query (ns) against worst relative error; circles: the front'\n";
-  out += "set logscale xy\nset format x '1e%T'\nset grid lc rgb '#dddddd'\nset xrange [1e-17:1]\nset xtics 1e4\nset key bottom left samplen 1 spacing 0.9 font ',9'\nset style line 99 lc rgb '#000000'\n";
-  for (const ChartPanel& panel : chart.panels) {
-    out += "set title '" + panel.title + "' font ',11'\nset yrange [*:*]\n";
-    std::map<std::string, std::vector<const ChartPoint*>> by_variant;
-    std::vector<std::string> order;
-    for (const ChartPoint& p : panel.points) {
-      if (!by_variant.contains(p.variant)) order.push_back(p.variant);
-      by_variant[p.variant].push_back(&p);
-    }
-    out += "plot ";
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const bool single = order[i].ends_with("float");
-      out += "'-' using 1:2 with linespoints lc rgb '" + std::string(colours[i % 4]) + "' dt " + (single ? "2" : "1") + " pt 7 ps " + (single ? "0.3" : "0.5") + " lw 1.3 " +
-             (&panel == &chart.panels.front() ? "title '" + order[i] + "'" : "notitle") + ", ";
-    }
-    out += "'-' using 1:2 with points pt 6 ps 1.3 lc rgb '#000000' notitle\n";
-    const auto data = [&](const ChartPoint& p) { out += number(std::max(p.worst_error, smallest_error)) + " " + number(p.nanoseconds) + "\n"; };
-    for (const std::string& name : order) {
-      for (const ChartPoint* p : by_variant[name]) data(*p);
-      out += "e\n";
-    }
-    for (const ChartPoint& p : panel.points)
-      if (p.front) data(p);
-    out += "e\n";
-  }
-  return out + "unset multiplot\n";
-}
-
-bool run_gnuplot(const std::string& commands) {
-  std::FILE* pipe = popen("gnuplot 2>/dev/null", "w");
-  if (!pipe) return false;
-  const bool written = std::fwrite(commands.data(), 1, commands.size(), pipe) == commands.size();
-  return pclose(pipe) == 0 && written;
 }
 
 }  // namespace gjkdbg

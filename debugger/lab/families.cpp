@@ -52,6 +52,12 @@ class Maker {
       default: return ellipsoid();
     }
   }
+  /// Radii of mean 0.1 and deviation 0.025: nearly balls.
+  Shape roundish() {
+    std::normal_distribution<double> radius(0.1, 0.025);
+    const auto positive = [&] { return std::max(0.01, radius(random_)); };
+    return {Ellipsoid{Eigen::Vector3d(positive(), positive(), positive())}, 0};
+  }
   Shape ellipsoid() { return {Ellipsoid{Eigen::Vector3d(uniform(0.3, 1), uniform(0.3, 1), uniform(0.3, 1))}, 0}; }
 
   /// Two bodies, placed along a random line so that the bodies' signed distance comes out near `gap` (a few corrections).
@@ -201,7 +207,12 @@ std::vector<Scene> hull_pairs(int pairs, int vertices, double gap) {
   return out;
 }
 
-std::vector<Scene> ellipsoid_pairs(int pairs, double gap) { return pairs_of({"", "", gap, ellipsoid}, pairs); }
+std::vector<Scene> ladder_ellipsoids(int pairs, double gap) {
+  Maker maker;
+  std::vector<Scene> out;
+  for (int i = 0; i < pairs; ++i) out.push_back(maker.pair([&] { return maker.roundish(); }, gap));
+  return out;
+}
 
 std::vector<PriceRow> price_rows(int pairs) {
   std::vector<PriceRow> rows;

@@ -20,8 +20,8 @@ std::vector<ChartFamily> chart_families(int pairs, const std::vector<std::string
 std::vector<std::string> chart_family_names();
 /// Hulls of so many vertices around a unit sphere, the gap between them given.
 std::vector<Scene> hull_pairs(int pairs, int vertices, double gap);
-/// Ellipsoids with the gap given.
-std::vector<Scene> ellipsoid_pairs(int pairs, double gap);
+/// Ellipsoids as in the benchmark of Montaut et al. 2024 (radii of mean 0.1, deviation 0.025), with the gap given.
+std::vector<Scene> ladder_ellipsoids(int pairs, double gap);
 
 /// What modelling too much costs: the same pairs, modelled as they need and as they do not.
 struct PriceRow {

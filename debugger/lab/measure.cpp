@@ -1,27 +1,68 @@
 #include "debugger/lab/measure.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "algo/solve.h"
 #include "shapes/convex.h"
+#include "shapes/error.h"
 
 namespace gjkdbg {
+
 std::vector<Variant> variants() {
   std::vector<Variant> out;
   for (const Scalar scalar : {Scalar::double_precision, Scalar::float_precision}) {
     const std::string suffix = scalar == Scalar::double_precision ? "" : ", float";
-    const auto add = [&](const std::string& name, MethodName method, ClosestPoint part) {
+    const auto add = [&](const std::string& name, MethodName method, ClosestPoint part = ClosestPoint::signed_volumes) -> Method& {
       Variant v{name + suffix, {}};
       v.method.name = method, v.method.closest_point = part, v.method.scalar = scalar;
       out.push_back(v);
+      return out.back().method;
     };
-    add("signed volumes", MethodName::gjk, ClosestPoint::signed_volumes);
+    add("signed volumes", MethodName::gjk);
     add("Johnson", MethodName::gjk, ClosestPoint::johnson);
     add("Voronoi regions", MethodName::gjk, ClosestPoint::voronoi);
-    add("accelerated", MethodName::gjk_accelerated, ClosestPoint::signed_volumes);
+    add("accelerated", MethodName::gjk_accelerated);
+    add("Polyak", MethodName::gjk_accelerated).acceleration = Acceleration::polyak;
+    add("MPR", MethodName::mpr);
+    add("SAT", MethodName::sat);
   }
+  for (const Peer& peer : peers()) out.push_back({peer.name, {}, &peer});
   return out;
+}
+
+std::vector<Variant> variants(const std::vector<std::string>& names) {
+  const std::vector<Variant> all = variants();
+  if (names.empty()) return all;
+  const auto lower = [](std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+  };
+  std::vector<bool> chosen(all.size(), false);
+  for (const std::string& name : names) {
+    bool found = false;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (lower(name) == "default" ? i == 0 : lower(all[i].name).starts_with(lower(name))) chosen[i] = found = true;
+    if (found) continue;
+    std::string list = "default";
+    for (const Variant& v : all) list += "; " + v.name;
+    throw Error("no-such-method", "no method has this name; there are " + list, name);
+  }
+  std::vector<Variant> out;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (chosen[i]) out.push_back(all[i]);
+  return out;
+}
+
+bool applies(const Variant& variant, const Scene& scene) {
+  if (variant.peer || variant.method.name != MethodName::sat) return true;
+  try {
+    (void)resolve_settings(variant.method, scene);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 double scene_size(const Scene& scene) {

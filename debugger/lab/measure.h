@@ -4,19 +4,25 @@
 #include <string>
 #include <vector>
 
-#include "algo/result.h"
 #include "algo/settings.h"
+#include "debugger/lab/peers.h"
 #include "shapes/scene.h"
 
 namespace gjkdbg {
 
-/// A method as the charts and the atlas compare them.
+/// A method as the charts and the atlas compare them: one of ours, or another library.
 struct Variant {
   std::string name;
-  Method method;
+  Method method;               ///< of ours
+  const Peer* peer = nullptr;  ///< of another library
 };
-/// Every method for signed distances there is, in both scalars.
+/// Every method for signed distances there is, in both scalars, and every library this was built with.
 std::vector<Variant> variants();
+/// Those whose names begin with one of `names`, whatever the case ("default": the default method alone); all when there are none.
+/// Throws Error for a name that none has.
+std::vector<Variant> variants(const std::vector<std::string>& names);
+/// Whether the method takes such bodies at all. (SAT: polytopes.) Libraries are asked by `Peer::prepare`.
+bool applies(const Variant& variant, const Scene& scene);
 
 /// The largest length of the bodies: what errors are relative to.
 double scene_size(const Scene& scene);

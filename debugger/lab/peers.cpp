@@ -145,6 +145,7 @@ class FclPair final : public PeerPair {
     if (const auto* e = std::get_if<Ellipsoid>(&shape.geometry)) return std::make_shared<fcl::Ellipsoidd>(Eigen::Vector3d(e->radii));
     if (const auto* p = std::get_if<PointSet>(&shape.geometry)) {
       const ConvexHull hull = convex_hull(p->points, 3);
+      if (hull.rank < 3) return nullptr;  // its hulls need faces
       auto vertices = std::make_shared<std::vector<Eigen::Vector3d>>();
       for (const AnyVector& x : p->points) vertices->push_back(x);
       auto faces = std::make_shared<std::vector<int>>();
