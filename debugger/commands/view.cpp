@@ -1,4 +1,6 @@
 // view: the window. render: pictures of steps without a display.
+#include <fcntl.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -71,6 +73,20 @@ class TemporaryFolder {
   std::string path_ = (std::filesystem::temp_directory_path() / "gjkdbg-XXXXXX").string();
 };
 
+/// This program with other words, at the same time; 0 when it cannot be started.
+pid_t start_self(std::vector<std::string> words) {
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t quiet;
+  posix_spawn_file_actions_init(&quiet);
+  posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  pid_t child = 0;
+  const int failed = posix_spawn(&child, program_path().c_str(), &quiet, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&quiet);
+  return failed == 0 ? child : 0;
+}
+
 /// A picture or the replay of what is open, made by this program's own `render` on a copy of the recording: the window's graphics stay as they are.
 void render_to(const App& app, const std::string& file) {
   const TemporaryFolder folder;
@@ -80,14 +96,10 @@ void render_to(const App& app, const std::string& file) {
   if (file.ends_with(".gif")) words.push_back("--all");
   else words.insert(words.end(), {"--step", std::to_string(app.session.step())});
   if (!app.theme.dark) words.push_back("--light");
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  pid_t child = 0;
+  const pid_t child = start_self(words);
   int status = -1;
-  const int failed = posix_spawn(&child, program_path().c_str(), nullptr, nullptr, arguments.data(), environ);
-  if (failed == 0) waitpid(child, &status, 0);
-  if (failed != 0 || !WIFEXITED(status) || WEXITSTATUS(status) != 0) throw Error("cannot-write", "the picture could not be made", file);
+  if (child > 0) waitpid(child, &status, 0);
+  if (child <= 0 || !WIFEXITED(status) || WEXITSTATUS(status) != 0) throw Error("cannot-write", "the picture could not be made", file);
 }
 
 std::string save(const App& app, const std::string& file) {
@@ -100,6 +112,35 @@ std::string save(const App& app, const std::string& file) {
     return e.line();
   }
 }
+
+/// `gjkdbg chart --quick` or `atlas --quick` beside the window, for its panel.
+class Measuring {
+ public:
+  ~Measuring() {
+    if (child_ <= 0) return;
+    kill(child_, SIGKILL);
+    waitpid(child_, nullptr, 0);
+  }
+
+  std::optional<std::filesystem::path> operator()(const std::string& what) {
+    if (!what.empty()) {
+      folder_ = std::make_unique<TemporaryFolder>(), what_ = what;
+      child_ = start_self({"gjkdbg", what, "--quick", "-o", folder_->path()});
+      if (child_ <= 0) throw Error("cannot-measure", "the measurement could not be started", what);
+      return std::nullopt;
+    }
+    int status = 0;
+    if (waitpid(child_, &status, WNOHANG) == 0) return std::nullopt;
+    child_ = 0;
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw Error("cannot-measure", "the measurement failed", what_);
+    return std::filesystem::path(folder_->path()) / (what_ + ".json");
+  }
+
+ private:
+  std::unique_ptr<TemporaryFolder> folder_;  ///< until the next one: the window reads from it
+  std::string what_;
+  pid_t child_ = 0;
+};
 
 /// A solver's files: those its command names. A new run is due when one of them has changed.
 class SolverWatch {
@@ -143,6 +184,8 @@ struct View {
     options.save = save;
     options.preferences = remembered();
     options.remember = remember;
+    const auto measuring = std::make_shared<Measuring>();
+    options.measure = [measuring](const std::string& what) { return (*measuring)(what); };
     if (!command.empty()) {
       SceneFile scene = read_scene(options.file.empty() ? gallery_directory() / (options.scene + ".scene.json") : options.file);
       scene.method.name = MethodName::gjk;
@@ -166,7 +209,7 @@ struct Render {
     App& app = host.app();
     app.preferences.dark = !light;
     apply_colours(app.theme, !light);
-    app.session.open(path);
+    app.open_or_throw(path);
     app.left_tab = App::LeftTab::scene;
     if (all) return animation(host);
     if (!output.ends_with(".png")) throw Error("unknown-format", "must end in .png, .svg, or with --all in .gif", "-o " + output);

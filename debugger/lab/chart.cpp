@@ -209,6 +209,7 @@ Chart make_chart(const ChartOptions& options, const std::function<bool(double)>&
   const double total = static_cast<double>(families.size() * all.size());
   double done = 0;
   Chart chart;
+  chart.methods = all;
   for (const ChartFamily& family : families) {
     std::vector<Reference> references;
     for (const Scene& scene : family.scenes) references.push_back(reference(scene));

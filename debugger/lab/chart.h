@@ -46,6 +46,7 @@ struct LadderPoint {
 };
 
 struct Chart {
+  std::vector<Variant> methods;
   std::vector<ChartPanel> panels;
   std::vector<PricePoint> price;
   std::vector<MotionPoint> motion;

@@ -7,6 +7,7 @@
 
 #include "debugger/lab/chart.h"
 #include "recordings/json_writing.h"
+#include "recordings/scene_file.h"
 
 namespace gjkdbg {
 namespace {
@@ -90,6 +91,13 @@ std::string chart_csv(const Chart& chart) {
 
 std::string chart_json(const Chart& chart) {
   Json out{{"format", "gjk-chart"}, {"version", 1}, {"generator", generator_name()}};
+  out["methods"] = Json::object();  // ours, as a scene asks for them
+  for (const Variant& variant : chart.methods)
+    if (!variant.peer && !chart.panels.empty()) {
+      SceneFile file;
+      file.scene = chart.panels.front().scenes.front(), file.method = variant.method;
+      out["methods"][variant.name] = scene_to_json(file)["method"];
+    }
   out["families"] = Json::array();
   for (const ChartPanel& panel : chart.panels) {
     Json family{{"name", panel.name}, {"title", panel.title}, {"pairs", panel.pairs}};

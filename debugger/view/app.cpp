@@ -21,12 +21,22 @@ App::App(Gallery gallery, float scale) : gallery_(std::move(gallery)) {
 
 void App::open(const std::filesystem::path& file) {
   try {
-    session.open(file);
+    open_or_throw(file);
     message.clear();
-    settings.selected.reset();
   } catch (const Error& e) {
     message = e.line();
   }
+}
+
+void App::open_or_throw(const std::filesystem::path& file) {
+  if (const MeasurementKind kind = read_measurements(file, measured); kind != MeasurementKind::neither) {
+    show_lab = true, lab_tab = kind == MeasurementKind::chart ? LabTab::chart : LabTab::atlas;
+    if (!session.is_open()) session.open(gallery_.file("box-box-deep"));  // something to come back to
+    return;
+  }
+  session.open(file);
+  show_lab = false;
+  settings.selected.reset();
 }
 
 void App::open_gallery(const std::string& name) { open(gallery_.file(name)); }
@@ -78,6 +88,11 @@ void App::panels(const Area& window) {
   top_bar({0, 0, window.width, top});
   if (!session.is_open()) return;
   const float height = window.height - top - 2 * gap;
+  if (show_lab) {
+    lab_panel(*this, {gap, top + gap, window.width - 2 * gap, height});
+    banner({gap, top + gap, window.width - 2 * gap, theme.px(40)});
+    return;
+  }
   if (lecture) {
     const float bottom = std::max(theme.px(190), window.height * 0.27f);
     view_panels(*this, {gap, top + gap, window.width - 2 * gap, height - bottom - gap}, true);
@@ -195,6 +210,7 @@ void App::top_bar(const Area& area) {
   if (button("Open", "Open a scene or a recording (Ctrl-O)")) ask(Asking::open);
   if (button("Save", "Save the scene, the recording, a picture or the replay (Ctrl-S)")) ask(Asking::save);
   if (button("Find", "Find a step (Ctrl-F)")) ask(Asking::find);
+  if (button("Measure", "Speed against accuracy, stability where methods fail (X)")) show_lab = !show_lab;
   if (button("Explain", "Big text, for a hall (E)")) lecture = !lecture;
   if (button(theme.dark ? "Light" : "Dark", "The other colours (T)")) preferences.dark = !preferences.dark;
   if (button("Keys", "All keys (?)")) show_keys = !show_keys;
@@ -220,16 +236,10 @@ void App::top_bar(const Area& area) {
 
 void App::left_panel(const Area& area) {
   if (begin_area("left", area, true)) {
-    const auto tab = [&](const char* name, LeftTab value) {
-      const bool current = left_tab == value;
-      ImGui::PushStyleColor(ImGuiCol_Text, vec(current ? theme.palette.text : theme.palette.text_faint));
-      ImGui::PushStyleColor(ImGuiCol_Button, vec(current ? theme.palette.field : theme.palette.panel));
-      if (ImGui::Button(name, {(ImGui::GetWindowContentRegionWidth() - theme.px(6)) / 2, 0})) left_tab = value;
-      ImGui::PopStyleColor(2);
-    };
-    tab("Gallery", LeftTab::gallery);
+    const float half = (ImGui::GetWindowContentRegionWidth() - theme.px(6)) / 2;
+    if (tab_button(theme, "Gallery", left_tab == LeftTab::gallery, half)) left_tab = LeftTab::gallery;
     ImGui::SameLine(0, theme.px(6));
-    tab("Scene", LeftTab::scene);
+    if (tab_button(theme, "Scene", left_tab == LeftTab::scene, half)) left_tab = LeftTab::scene;
     ImGui::Dummy({0, theme.px(4)});
     left_tab == LeftTab::gallery ? gallery_panel(*this) : scene_panel(*this);
   }
@@ -303,6 +313,8 @@ void App::keys() {
   if (key_pressed(Key::home)) session.playing = false, session.go_to(0);
   if (key_pressed(Key::end)) session.playing = false, session.go_to(session.count() - 1);
   if (key_pressed(Key::space)) session.toggle_play();
+  if (key_pressed(Key::x)) show_lab = !show_lab;
+  if (show_lab && key_pressed(Key::escape)) show_lab = false;
   if (key_pressed(Key::b)) session.toggle_breakpoint();
   if (key_pressed(Key::m)) session.add_bookmark();
   if (key_pressed(Key::left_bracket)) session.loop = true, session.loop_from = session.step();
@@ -339,7 +351,7 @@ void App::key_sheet() {
       {"Right  Left   or   .  ,", "on, back an event"}, {"Shift with them", "an iteration"}, {"Ctrl with them", "a phase"}, {"Home  End", "first, last step"},
       {"Space", "play, pause"}, {"[  ]", "loop from here, to here"}, {"B", "breakpoint here"}, {"M, 1 to 9", "bookmark, go to it"}, {"Ctrl-F, F3, Shift-F3", "find, next, previous"},
       {"Ctrl-G", "go to a step"}, {"F, double click", "fit the views"}, {"1 2 3 on the pad", "front, right, top"}, {"V", "side by side, stacked, one view"}, {"L", "link the cameras"},
-      {"G", "gallery or scene"}, {"T", "dark or light"}, {"E", "explain in big letters"}, {"Ctrl-O  Ctrl-S", "open, save"}, {"Ctrl-C, Ctrl-Shift-C", "copy the scene: JSON, C++"},
+      {"G", "gallery or scene"}, {"T", "dark or light"}, {"E", "explain in big letters"}, {"X", "charts and atlas"}, {"Ctrl-O  Ctrl-S", "open, save"}, {"Ctrl-C, Ctrl-Shift-C", "copy the scene: JSON, C++"},
       {"Ctrl-Z  Ctrl-Y", "undo, redo"}, {"Ctrl-Q", "quit"}, {"drag, right drag, wheel", "orbit, pan, zoom"}, {"click a vertex", "select it in both views"}, {"click a number", "the step it comes from"},
       {"drag a ring A or B", "move the body"}, {"drag its small disc", "turn the body"}};
   const ImVec2 size = ImGui::GetIO().DisplaySize;

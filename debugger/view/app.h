@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "debugger/view/measurements.h"
 #include "debugger/view/preferences.h"
 #include "debugger/view/session.h"
 #include "debugger/view/theme.h"
@@ -28,6 +29,11 @@ class App {
   enum class LeftTab { gallery, scene } left_tab = LeftTab::gallery;
   bool show_keys = false;
   bool lecture = false;       ///< big sentence, no side panels
+  bool show_lab = false;      ///< charts and atlas in place of the scene
+  enum class LabTab { chart, atlas } lab_tab = LabTab::chart;
+  Measurements measured;
+  std::string measure_requested;  ///< "chart" or "atlas": the host measures, opens the result and clears this
+  bool measuring = false;         ///< the host is at it
   bool quit = false;          ///< the person wants to leave
   std::string message;        ///< the last error, shown until the next success
   std::string notice;         ///< the last thing done ("copied"), shown for a while
@@ -37,6 +43,8 @@ class App {
 
   /// Opens a file or a gallery scene; what is wrong is shown in the window.
   void open(const std::filesystem::path& file);
+  /// The same: a scene, a recording, a chart.json or an atlas.json; throws Error.
+  void open_or_throw(const std::filesystem::path& file);
   void open_gallery(const std::string& name);
   /// Another recording beside this one.
   void compare(const std::filesystem::path& file);
@@ -93,6 +101,7 @@ void transport(App& app);
 void scrubber(App& app);
 void bounds_plot(App& app, float width, float height);
 void motion_plot(App& app, float width, float height);
+void lab_panel(App& app, const Area& area);
 /// The two views, side by side or stacked, or the one chosen.
 void view_panels(App& app, const Area& area, bool interactive);
 
@@ -106,6 +115,8 @@ void wrapped(const std::string& text, Colour colour);
 /// A label on the left and a number in the monospaced font, right-aligned. With a source, the step that produced the number, a click goes there.
 void number_row(const Theme& theme, const char* label, const std::string& value, Colour colour);
 void number_row(App& app, const char* label, const std::string& value, Colour colour, std::optional<std::size_t> source);
+/// One of several buttons of which one is `current`; width 0: as the text needs.
+bool tab_button(const Theme& theme, const char* name, bool current, float width = 0);
 /// A rounded label.
 void chip(const Theme& theme, const std::string& text, Colour colour);
 Colour event_colour(const Palette& palette, const Event& event);

@@ -80,6 +80,20 @@ void refresh(App& app, const WindowOptions& options) {
   if (!message.empty()) app.message = message;
 }
 
+/// Starts the measurement asked for; shows the one that is done.
+void measure(App& app, const WindowOptions& options) {
+  if (!app.measuring && app.measure_requested.empty()) return;
+  try {
+    const bool begin = !app.measuring;
+    app.measuring = true;
+    const auto file = options.measure(begin ? app.measure_requested : "");
+    app.measure_requested.clear();
+    if (file) app.measuring = false, app.open(*file);
+  } catch (const Error& e) {
+    app.measuring = false, app.measure_requested.clear(), app.message = e.line();
+  }
+}
+
 /// Draws while something changes; otherwise sleeps until there is input. A few frames follow every input, for what takes ImGui
 /// more than one to settle.
 void loop(GLFWwindow* window, App& app, const WindowOptions& options) {
@@ -88,9 +102,10 @@ void loop(GLFWwindow* window, App& app, const WindowOptions& options) {
   while (!glfwWindowShouldClose(window) && !app.quit) {
     if (app.moving()) glfwPollEvents();
     else if (frames_left > 0) glfwPollEvents(), --frames_left;
-    else if (options.refresh) glfwWaitEventsTimeout(0.33), frames_left = 1;
+    else if (options.refresh || app.measuring) glfwWaitEventsTimeout(0.33), frames_left = 1;
     else glfwWaitEvents(), frames_left = 3;
     if (options.refresh) refresh(app, options);
+    if (options.measure) measure(app, options);
     draw(window, app);
     if (!app.save_requested.empty() && options.save) {
       app.message = options.save(app, app.save_requested);
@@ -124,7 +139,7 @@ void run_window(const WindowOptions& options, Gallery gallery) {
   app.preferences = options.preferences;
   app.session.speed = app.preferences.speed;
   if (options.file.empty()) app.open_gallery(options.scene);
-  else app.session.open(options.file);
+  else app.open_or_throw(options.file);
   if (!options.beside.empty()) {
     Session beside;
     beside.open(options.beside);

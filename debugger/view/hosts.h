@@ -34,6 +34,8 @@ struct WindowOptions {
   std::function<void(const Preferences&)> remember;  ///< called when the window closes
   /// Asked every third of a second: a recording to show instead, when there is a new one. What is wrong goes into the string.
   std::function<std::optional<Recording>(std::string& message)> refresh;
+  /// Starts a measurement ("chart" or "atlas"), or, asked for "", tells the file of the one that is done. Throws Error when there will be none.
+  std::function<std::optional<std::filesystem::path>(const std::string& what)> measure;
 };
 
 /// Opens the window and runs until it is closed. Throws Error when there is no display or no OpenGL 3.3.

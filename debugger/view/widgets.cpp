@@ -52,6 +52,14 @@ void number_row(App& app, const char* label, const std::string& value, Colour co
   if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) app.session.playing = false, app.session.go_to(*source);
 }
 
+bool tab_button(const Theme& theme, const char* name, bool current, float width) {
+  ImGui::PushStyleColor(ImGuiCol_Text, vec(current ? theme.palette.text : theme.palette.text_faint));
+  ImGui::PushStyleColor(ImGuiCol_Button, vec(current ? theme.palette.field : theme.palette.panel));
+  const bool pressed = ImGui::Button(name, {width, 0});
+  ImGui::PopStyleColor(2);
+  return pressed;
+}
+
 void chip(const Theme& theme, const std::string& text, Colour colour) {
   ImGui::PushFont(theme.small);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str()), at = ImGui::GetCursorScreenPos();

@@ -1,0 +1,121 @@
+#include "debugger/view/measurements.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+
+#include "recordings/json_reading.h"
+#include "shapes/error.h"
+
+#include <nlohmann/json.hpp>
+
+namespace gjkdbg {
+namespace {
+
+template <class Read>
+void each(const Json& list, const Place& place, const Read& read) {
+  if (!list.is_array()) reject(place, "wrong-type", "must be a list");
+  for (std::size_t i = 0; i < list.size(); ++i) read(list[i], Place(place, i));
+}
+
+SceneFile scene_at(const Json& json, const Place& place) {
+  try {
+    return scene_from_json(json, {});
+  } catch (const Error& e) {
+    throw Error(e.code(), e.message(), place.pointer() + e.where());
+  }
+}
+
+/// The index of a name in a list that it joins when it is new.
+int index_of(std::vector<std::string>& names, const std::string& name) {
+  const auto at = std::find(names.begin(), names.end(), name);
+  if (at != names.end()) return static_cast<int>(at - names.begin());
+  names.push_back(name);
+  return static_cast<int>(names.size()) - 1;
+}
+
+double number_at(ObjectReader& object, std::string_view key) { return read_number(object.required(key), object.at(key)); }
+
+MeasuredChart read_chart(const Json& json) {
+  MeasuredChart chart;
+  const Place root;
+  ObjectReader top(json, root);
+  const Place families(root, "families");
+  each(top.required("families"), families, [&](const Json& one, const Place& place) {
+    ObjectReader object(one, place);
+    MeasuredFamily family;
+    family.name = read_string(object.required("name"), object.at("name")), family.title = read_string(object.required("title"), object.at("title"));
+    family.pairs = read_integer(object.required("pairs"), object.at("pairs"), 0, 1000000);
+    const Place points(place, "points");
+    each(object.required("points"), points, [&](const Json& dot_json, const Place& at) {
+      ObjectReader dot(dot_json, at);
+      MeasuredDot d;
+      d.method = index_of(chart.methods, read_string(dot.required("method"), dot.at("method")));
+      d.tolerance = number_at(dot, "tolerance"), d.nanoseconds = number_at(dot, "nanoseconds"), d.worst_error = number_at(dot, "worst_error");
+      d.wrong = read_integer(dot.required("wrong"), dot.at("wrong"), 0, 1000000), d.worst_pair = read_integer(dot.required("worst_pair"), dot.at("worst_pair"), 0, 1000000);
+      d.front = read_bool(dot.required("front"), dot.at("front"));
+      if (!(d.nanoseconds > 0)) reject(Place(at, "nanoseconds"), "out-of-range", "must be positive");
+      family.dots.push_back(d);
+    });
+    const Place scenes(place, "scenes");
+    if (const Json* list = object.optional("scenes"))
+      for (const auto& [key, scene] : list->items()) family.scenes[std::atoi(key.c_str())] = scene_at(scene, Place(scenes, key));
+    chart.families.push_back(std::move(family));
+  });
+  chart.settings.resize(chart.methods.size());
+  const Place methods(root, "methods");
+  if (const Json* list = top.optional("methods"))
+    for (const auto& [name, method] : list->items())
+      if (const auto at = std::find(chart.methods.begin(), chart.methods.end(), name); at != chart.methods.end())
+        chart.settings[static_cast<std::size_t>(at - chart.methods.begin())] = method_from_json(method, Place(methods, name).pointer(), 3);
+  return chart;
+}
+
+MeasuredAtlas read_atlas(const Json& json) {
+  MeasuredAtlas atlas;
+  const Place root;
+  ObjectReader top(json, root);
+  const Place families(root, "families");
+  each(top.required("families"), families, [&](const Json& one, const Place& place) {
+    ObjectReader object(one, place);
+    MeasuredAtlas::Family family{read_string(object.required("name"), object.at("name")), read_string(object.required("what"), object.at("what")), {}};
+    const Place cells(place, "cells");
+    each(object.required("cells"), cells, [&](const Json& cell_json, const Place& at) {
+      ObjectReader cell(cell_json, at);
+      MeasuredCell c;
+      const auto method = static_cast<std::size_t>(index_of(atlas.methods, read_string(cell.required("method"), cell.at("method"))));
+      c.verdict = static_cast<int>(read_enum(cell.required("verdict"), cell.at("verdict"), atlas_verdicts));
+      const Json& error = cell.required("worst_error");
+      c.worst_error = error.is_null() ? std::numeric_limits<double>::infinity() : read_number(error, cell.at("worst_error"));
+      c.parameter = number_at(cell, "parameter");
+      if (const Json* why = cell.optional("why")) c.why = read_string(*why, cell.at("why"));
+      if (const Json* scene = cell.optional("scene")) c.scene = scene_at(*scene, cell.at("scene"));
+      if (family.cells.size() <= method) family.cells.resize(method + 1);
+      family.cells[method] = std::move(c);
+    });
+    atlas.families.push_back(std::move(family));
+  });
+  for (auto& family : atlas.families) family.cells.resize(atlas.methods.size());
+  return atlas;
+}
+
+}  // namespace
+
+MeasurementKind read_measurements(const std::filesystem::path& file, Measurements& measurements) {
+  if (file.filename().string().ends_with(".scene.json") || file.filename().string().ends_with(".recording.json")) return MeasurementKind::neither;
+  const std::string text = read_text_file(file), beginning = text.substr(0, 200);
+  if (beginning.find("\"gjk-chart\"") == std::string::npos && beginning.find("\"gjk-atlas\"") == std::string::npos) return MeasurementKind::neither;
+  try {
+    const Json json = parse_json(text);
+    const Place root;
+    ObjectReader top(json, root);
+    const std::string format = read_string(top.required("format"), top.at("format"));
+    if (format == "gjk-chart") return measurements.chart = read_chart(json), MeasurementKind::chart;
+    if (format == "gjk-atlas") return measurements.atlas = read_atlas(json), MeasurementKind::atlas;
+    return MeasurementKind::neither;
+  } catch (const Error& e) {
+    throw Error(e.code(), e.message(), file.string() + (e.where().empty() ? "" : ": " + e.where()));
+  }
+}
+
+}  // namespace gjkdbg
