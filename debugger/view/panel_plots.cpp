@@ -30,6 +30,16 @@ std::vector<Sample> samples_of(const Recording& recording) {
   return samples;
 }
 
+/// The background and the title of a plot; its upper left corner.
+ImVec2 plot_frame(const Theme& theme, float width, float height, const char* title) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled(at, {at.x + width, at.y + height}, packed(theme.palette.view), theme.px(6));
+  draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(10), at.y + theme.px(6)}, packed(theme.palette.text_faint), title);
+  ImGui::Dummy({width, height});
+  return at;
+}
+
 /// The length of the momentum, from 0 to its greatest.
 void momentum_curve(App& app, ImVec2 from, ImVec2 to, double first, double last) {
   double most = 0;
@@ -53,11 +63,8 @@ void bounds_plot(App& app, float width, float height) {
   Session& s = app.session;
   const Theme& theme = app.theme;
   const Palette& p = theme.palette;
-  const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList* draw = ImGui::GetWindowDrawList();
-  draw->AddRectFilled(at, {at.x + width, at.y + height}, packed(p.view), theme.px(6));
-  draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(10), at.y + theme.px(6)}, packed(p.text_faint), "gap between the bounds, log scale");
-  ImGui::Dummy({width, height});
+  const ImVec2 at = plot_frame(theme, width, height, "gap between the bounds, log scale");
   const std::vector<Sample> samples = samples_of(s.recording()), others = s.comparing() ? samples_of(s.other()) : std::vector<Sample>();
   if (samples.empty() && others.empty()) return;
   const Settings& settings = s.recording().settings;
@@ -121,12 +128,9 @@ void motion_plot(App& app, float width, float height) {
   Session& s = app.session;
   const Theme& theme = app.theme;
   const Palette& p = theme.palette;
-  const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const bool cast = s.scene().scene.query == Query::cast;
-  draw->AddRectFilled(at, {at.x + width, at.y + height}, packed(p.view), theme.px(6));
-  draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(10), at.y + theme.px(6)}, packed(p.text_faint), cast ? "distance over time, each advance" : "energy over time, and momentum (its own scale)");
-  ImGui::Dummy({width, height});
+  const ImVec2 at = plot_frame(theme, width, height, cast ? "distance over time, each advance" : "energy over time, and momentum (its own scale)");
   struct Point {
     double time, value;
     int series;
