@@ -24,7 +24,11 @@ ChildEnd in_child(double seconds, void* answer, std::size_t size, const std::fun
     const int nowhere = open("/dev/null", O_WRONLY);
     dup2(nowhere, STDOUT_FILENO), dup2(nowhere, STDERR_FILENO);
     signal(SIGABRT, SIG_DFL), signal(SIGINT, SIG_IGN);
-    work(shared);
+    try {
+      work(shared);
+    } catch (...) {
+      _exit(1);
+    }
     _exit(0);
   }
   if (child < 0) {
