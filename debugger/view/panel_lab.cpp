@@ -50,8 +50,8 @@ constexpr double nothing = 1e-17;  ///< where an error of zero stands
 /// One family: time up, error to the right, both logarithmic.
 class FamilyPlot {
  public:
-  FamilyPlot(App& app, const MeasuredChart& chart, const MeasuredFamily& family, ImVec2 at, ImVec2 size, int highlighted)
-      : app_(app), theme_(app.theme), chart_(chart), family_(family), at_(at), size_(size), highlighted_(highlighted) {
+  FamilyPlot(const Theme& theme, const MeasuredChart& chart, const MeasuredFamily& family, ImVec2 at, ImVec2 size, int highlighted)
+      : theme_(theme), chart_(chart), family_(family), at_(at), size_(size), highlighted_(highlighted) {
     low_ = 1e300, high_ = 0;
     for (const MeasuredDot& d : family.dots) low_ = std::min(low_, d.nanoseconds), high_ = std::max(high_, d.nanoseconds);
     low_ = std::floor(std::log10(low_)), high_ = std::max(low_ + 1, std::ceil(std::log10(std::max(high_, 1.0))));
@@ -104,7 +104,6 @@ class FamilyPlot {
   float y_of(double time) const { return to_.y - static_cast<float>((std::log10(time) - low_) / (high_ - low_)) * (to_.y - from_.y); }
   ImVec2 place(const MeasuredDot& d) const { return {x_of(d.worst_error), y_of(d.nanoseconds)}; }
 
-  App& app_;
   const Theme& theme_;
   const MeasuredChart& chart_;
   const MeasuredFamily& family_;
@@ -157,7 +156,7 @@ void chart_area(App& app, ImVec2 at, ImVec2 size) {
   for (int i = 0; i < count; ++i) {
     const MeasuredFamily& family = chart.families[static_cast<std::size_t>(i)];
     const ImVec2 corner{at.x + static_cast<float>(i % columns) * (width + gap), pen.y + static_cast<float>(i / columns) * (height + gap)};
-    if (const MeasuredDot* d = FamilyPlot(app, chart, family, corner, {width, height}, highlighted).draw()) pointed = d, where = &family;
+    if (const MeasuredDot* d = FamilyPlot(theme, chart, family, corner, {width, height}, highlighted).draw()) pointed = d, where = &family;
   }
   ImGui::SetCursorScreenPos({at.x, pen.y + static_cast<float>(rows) * (height + gap)});
   ImGui::Dummy({1, 1});
