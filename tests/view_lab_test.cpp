@@ -75,7 +75,7 @@ TEST_F(Lab, ADotOpensItsWorstPairWithItsMethodAndTolerance) {
   ASSERT_TRUE(app.message.empty()) << app.message;
   EXPECT_TRUE(app.show_lab);
   host.frame(), host.frame();
-  ASSERT_TRUE(click_until_open(30, 180, 1260, 780, 12));
+  ASSERT_TRUE(click_until_open(670, 540, 710, 600, 8));  // about where 1e-8 and 500 ns stand
   EXPECT_EQ(session.title(), "boxes-3");
   EXPECT_FALSE(app.show_lab);
   EXPECT_EQ(session.recording().settings.closest_point, ClosestPoint::johnson);
@@ -87,7 +87,7 @@ TEST_F(Lab, ACellOpensTheSceneThatFails) {
   ASSERT_TRUE(app.message.empty()) << app.message;
   EXPECT_EQ(app.lab_tab, App::LabTab::atlas);
   host.frame(), host.frame();
-  ASSERT_TRUE(click_until_open(170, 170, 300, 300, 8));
+  ASSERT_TRUE(click_until_open(190, 170, 200, 300, 8));
   EXPECT_EQ(session.title(), "atlas-K1");
   EXPECT_TRUE(session.step() + 1 == session.count() || !session.findings().empty());
 }
