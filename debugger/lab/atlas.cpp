@@ -216,7 +216,7 @@ namespace {
 
 /// What stands in a cell of the heat map: the size of the error, in four signs.
 std::string label(const AtlasCell& cell) {
-  if (cell.verdict == Verdict::not_applicable || cell.verdict == Verdict::crashed) return "''";
+  if (cell.verdict == Verdict::not_applicable || cell.verdict == Verdict::crashed) return "-";
   char text[32];
   std::snprintf(text, sizeof text, "%.0e", cell.worst_error);
   return cell.worst_error == 0 ? "0" : text;
