@@ -12,10 +12,17 @@
 namespace gjkdbg {
 namespace {
 
+/// Reads the objects of the list that stands at `key`.
 template <class Read>
-void each(const Json& list, const Place& place, const Read& read) {
+void each(ObjectReader& parent, std::string_view key, const Read& read) {
+  const Json& list = parent.required(key);
+  const Place place = parent.at(key);
   if (!list.is_array()) reject(place, "wrong-type", "must be a list");
-  for (std::size_t i = 0; i < list.size(); ++i) read(list[i], Place(place, i));
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const Place here(place, i);
+    ObjectReader object(list[i], here);
+    read(object);
+  }
 }
 
 SceneFile scene_at(const Json& json, const Place& place) {
@@ -35,35 +42,28 @@ int index_of(std::vector<std::string>& names, const std::string& name) {
 }
 
 double number_at(ObjectReader& object, std::string_view key) { return read_number(object.required(key), object.at(key)); }
+int count_at(ObjectReader& object, std::string_view key) { return read_integer(object.required(key), object.at(key), 0, 1000000); }
+std::string string_at(ObjectReader& object, std::string_view key) { return read_string(object.required(key), object.at(key)); }
 
-MeasuredChart read_chart(const Json& json) {
+MeasuredChart read_chart(ObjectReader& top) {
   MeasuredChart chart;
-  const Place root;
-  ObjectReader top(json, root);
-  const Place families(root, "families");
-  each(top.required("families"), families, [&](const Json& one, const Place& place) {
-    ObjectReader object(one, place);
-    MeasuredFamily family;
-    family.name = read_string(object.required("name"), object.at("name")), family.title = read_string(object.required("title"), object.at("title"));
-    family.pairs = read_integer(object.required("pairs"), object.at("pairs"), 0, 1000000);
-    const Place points(place, "points");
-    each(object.required("points"), points, [&](const Json& dot_json, const Place& at) {
-      ObjectReader dot(dot_json, at);
+  each(top, "families", [&](ObjectReader& object) {
+    MeasuredFamily family{string_at(object, "name"), string_at(object, "title"), count_at(object, "pairs"), {}, {}};
+    each(object, "points", [&](ObjectReader& dot) {
       MeasuredDot d;
-      d.method = index_of(chart.methods, read_string(dot.required("method"), dot.at("method")));
+      d.method = index_of(chart.methods, string_at(dot, "method"));
       d.tolerance = number_at(dot, "tolerance"), d.nanoseconds = number_at(dot, "nanoseconds"), d.worst_error = number_at(dot, "worst_error");
-      d.wrong = read_integer(dot.required("wrong"), dot.at("wrong"), 0, 1000000), d.worst_pair = read_integer(dot.required("worst_pair"), dot.at("worst_pair"), 0, 1000000);
-      d.front = read_bool(dot.required("front"), dot.at("front"));
-      if (!(d.nanoseconds > 0)) reject(Place(at, "nanoseconds"), "out-of-range", "must be positive");
+      d.wrong = count_at(dot, "wrong"), d.worst_pair = count_at(dot, "worst_pair"), d.front = read_bool(dot.required("front"), dot.at("front"));
+      if (!(d.nanoseconds > 0)) reject(dot.at("nanoseconds"), "out-of-range", "must be positive");
       family.dots.push_back(d);
     });
-    const Place scenes(place, "scenes");
+    const Place scenes = object.at("scenes");
     if (const Json* list = object.optional("scenes"))
       for (const auto& [key, scene] : list->items()) family.scenes[std::atoi(key.c_str())] = scene_at(scene, Place(scenes, key));
     chart.families.push_back(std::move(family));
   });
   chart.settings.resize(chart.methods.size());
-  const Place methods(root, "methods");
+  const Place methods = top.at("methods");
   if (const Json* list = top.optional("methods"))
     for (const auto& [name, method] : list->items())
       if (const auto at = std::find(chart.methods.begin(), chart.methods.end(), name); at != chart.methods.end())
@@ -71,24 +71,18 @@ MeasuredChart read_chart(const Json& json) {
   return chart;
 }
 
-MeasuredAtlas read_atlas(const Json& json) {
+MeasuredAtlas read_atlas(ObjectReader& top) {
   MeasuredAtlas atlas;
-  const Place root;
-  ObjectReader top(json, root);
-  const Place families(root, "families");
-  each(top.required("families"), families, [&](const Json& one, const Place& place) {
-    ObjectReader object(one, place);
-    MeasuredAtlas::Family family{read_string(object.required("name"), object.at("name")), read_string(object.required("what"), object.at("what")), {}};
-    const Place cells(place, "cells");
-    each(object.required("cells"), cells, [&](const Json& cell_json, const Place& at) {
-      ObjectReader cell(cell_json, at);
+  each(top, "families", [&](ObjectReader& object) {
+    MeasuredAtlas::Family family{string_at(object, "name"), string_at(object, "what"), {}};
+    each(object, "cells", [&](ObjectReader& cell) {
       MeasuredCell c;
-      const auto method = static_cast<std::size_t>(index_of(atlas.methods, read_string(cell.required("method"), cell.at("method"))));
+      const auto method = static_cast<std::size_t>(index_of(atlas.methods, string_at(cell, "method")));
       c.verdict = static_cast<int>(read_enum(cell.required("verdict"), cell.at("verdict"), atlas_verdicts));
       const Json& error = cell.required("worst_error");
       c.worst_error = error.is_null() ? std::numeric_limits<double>::infinity() : read_number(error, cell.at("worst_error"));
       c.parameter = number_at(cell, "parameter");
-      if (const Json* why = cell.optional("why")) c.why = read_string(*why, cell.at("why"));
+      if (cell.optional("why")) c.why = string_at(cell, "why");
       if (const Json* scene = cell.optional("scene")) c.scene = scene_at(*scene, cell.at("scene"));
       if (family.cells.size() <= method) family.cells.resize(method + 1);
       family.cells[method] = std::move(c);
@@ -109,9 +103,9 @@ MeasurementKind read_measurements(const std::filesystem::path& file, Measurement
     const Json json = parse_json(text);
     const Place root;
     ObjectReader top(json, root);
-    const std::string format = read_string(top.required("format"), top.at("format"));
-    if (format == "gjk-chart") return measurements.chart = read_chart(json), MeasurementKind::chart;
-    if (format == "gjk-atlas") return measurements.atlas = read_atlas(json), MeasurementKind::atlas;
+    const std::string format = string_at(top, "format");
+    if (format == "gjk-chart") return measurements.chart = read_chart(top), MeasurementKind::chart;
+    if (format == "gjk-atlas") return measurements.atlas = read_atlas(top), MeasurementKind::atlas;
     return MeasurementKind::neither;
   } catch (const Error& e) {
     throw Error(e.code(), e.message(), file.string() + (e.where().empty() ? "" : ": " + e.where()));
