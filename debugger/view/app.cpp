@@ -308,8 +308,8 @@ void App::keys() {
   const ImGuiIO& io = ImGui::GetIO();
   // WantTextInput still holds in the frame after a text field went away with its dialog: keys typed meanwhile are no text.
   if ((io.WantTextInput && ImGui::IsAnyItemActive()) || !session.is_open()) return;
-  step_keys(io.KeyShift, io.KeyCtrl);
-  if (io.KeyCtrl) return control_keys(io.KeyShift);
+  step_keys(shift_held(), control_held());
+  if (control_held()) return control_keys(shift_held());
   if (key_pressed(Key::home)) session.playing = false, session.go_to(0);
   if (key_pressed(Key::end)) session.playing = false, session.go_to(session.count() - 1);
   if (key_pressed(Key::space)) session.toggle_play();
@@ -320,7 +320,7 @@ void App::keys() {
   if (key_pressed(Key::left_bracket)) session.loop = true, session.loop_from = session.step();
   if (key_pressed(Key::right_bracket)) session.loop = true, session.loop_to = session.step();
   if (key_pressed(Key::f3)) {
-    if (const auto step = find_text(session, find_buffer_, session.step(), io.KeyShift)) session.go_to(*step);
+    if (const auto step = find_text(session, find_buffer_, session.step(), shift_held())) session.go_to(*step);
   }
   for (int i = 1; i <= 9; ++i)
     if (key_pressed(static_cast<Key>(static_cast<int>(Key::digit_1) + i - 1)) && session.bookmarks.contains(i)) session.go_to(session.bookmarks[i]);

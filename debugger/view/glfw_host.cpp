@@ -130,8 +130,8 @@ void run_window(const WindowOptions& options, Gallery gallery) {
   glfwSetWindowUserPointer(window, &app);
   glfwSetDropCallback(window, open_dropped);
 #if IMGUI_VERSION_NUM < 18700
-  glfwSetKeyCallback(window, [](GLFWwindow*, int key, int, int action, int) {
-    if (action == GLFW_PRESS) note_press(key);
+  glfwSetKeyCallback(window, [](GLFWwindow*, int key, int, int action, int held) {
+    if (action == GLFW_PRESS) note_press(key, (held & GLFW_MOD_SHIFT) != 0, (held & GLFW_MOD_CONTROL) != 0);
   });
 #endif
   ImGui_ImplGlfw_InitForOpenGL(window, true);

@@ -20,20 +20,29 @@ constexpr std::array<ImGuiKey, key_count> codes{ImGuiKey_RightArrow, ImGuiKey_Le
                                                 ImGuiKey_3, ImGuiKey_4, ImGuiKey_5, ImGuiKey_6, ImGuiKey_7, ImGuiKey_8, ImGuiKey_9, ImGuiKey_Keypad1, ImGuiKey_Keypad2, ImGuiKey_Keypad3};
 #endif
 
-std::vector<int>& noted() {
-  static std::vector<int> codes_of_this_frame;
-  return codes_of_this_frame;
+struct Presses {
+  std::vector<int> codes;
+  bool shift = false, control = false;
+};
+Presses& noted() {
+  static Presses of_this_frame;
+  return of_this_frame;
 }
 
 }  // namespace
 
 bool key_pressed(Key key) {
   const auto code = codes[static_cast<std::size_t>(key)];
-  return ImGui::IsKeyPressed(code, true) || std::find(noted().begin(), noted().end(), static_cast<int>(code)) != noted().end();
+  return ImGui::IsKeyPressed(code, true) || std::find(noted().codes.begin(), noted().codes.end(), static_cast<int>(code)) != noted().codes.end();
 }
 
-void note_press(int code) { noted().push_back(code); }
-void forget_presses() { noted().clear(); }
+void note_press(int code, bool shift, bool control) {
+  noted().codes.push_back(code);
+  noted().shift |= shift, noted().control |= control;
+}
+void forget_presses() { noted() = {}; }
+bool shift_held() { return ImGui::GetIO().KeyShift || noted().shift; }
+bool control_held() { return ImGui::GetIO().KeyCtrl || noted().control; }
 
 void feed_key(Key key, bool down) {
 #if IMGUI_VERSION_NUM < 18700

@@ -14,8 +14,11 @@ bool key_pressed(Key key);
 
 /// A press as the window system tells it (its own code), before the frame that it falls in: before 1.87 ImGui loses one that is let go within
 /// the same frame. `forget_presses` after every frame.
-void note_press(int code);
+void note_press(int code, bool shift, bool control);
 void forget_presses();
+/// Held now, or with a press noted since the last frame.
+bool shift_held();
+bool control_held();
 
 /// For tests and pictures, where no window feeds the keys: presses and lets go. Call `map_keys` once per context where no GLFW does.
 void feed_key(Key key, bool down);
