@@ -62,10 +62,10 @@ class Gjk {
   using Feature = ClosestFeature<D, S>;
 
  public:
-  Gjk(Difference& difference, const GjkOptions<D, S>& options, Trace& trace)
-      : difference_(difference), options_(options), trace_(trace), floor_(difference.rounding_floor()) {}
+  Gjk(Difference& difference, const GjkOptions<D, S>& options, Trace& trace, GjkResult<D, S>& result)
+      : difference_(difference), options_(options), trace_(trace), floor_(difference.rounding_floor()), result_(result) {}
 
-  GjkResult<D, S> run() {
+  void run() {
     trace_(GjkBegan<V, Viewed>{options_.direction});
     add(options_.direction, options_.direction.norm());
     reduce();
@@ -86,7 +86,7 @@ class Gjk {
       result_.simplex.add(point);
       if (!reduce() && !reduce_again()) return finish(GjkStatus::stalled);
     }
-    return finish(status_);
+    finish(status_);
   }
 
  private:
@@ -212,11 +212,10 @@ class Gjk {
     return true;
   }
 
-  GjkResult<D, S> finish(GjkStatus status) {
+  void finish(GjkStatus status) {
     result_.status = status;
     const double radius = static_cast<double>(difference_.radius());
     trace_(GjkEnded<V, Viewed>{result_.iterations, status, result_.lower_bound - radius, result_.upper_bound - radius});
-    return result_;
   }
 
   struct Numbers {
@@ -253,7 +252,7 @@ class Gjk {
   const GjkOptions<D, S>& options_;
   Trace& trace_;
   const S floor_;
-  GjkResult<D, S> result_;
+  GjkResult<D, S>& result_;
   S v_squared_ = std::numeric_limits<S>::infinity();
   S last_squared_ = std::numeric_limits<S>::max();
   S plane_ = 0;
@@ -269,7 +268,9 @@ class Gjk {
 /// Runs GJK on a difference. Directions, points and v are in the frame of body 0.
 template <class SubAlgorithm, class Difference, class Trace>
 auto gjk(Difference& difference, const GjkOptions<Difference::D, typename Difference::S>& options, Trace& trace) {
-  return Gjk<Difference, SubAlgorithm, Trace>(difference, options, trace).run();
+  GjkResult<Difference::D, typename Difference::S> result;
+  Gjk<Difference, SubAlgorithm, Trace>(difference, options, trace, result).run();
+  return result;
 }
 
 }  // namespace gjkdbg

@@ -37,48 +37,35 @@ struct RelativePose {
   Vector<D, S> position = Vector<D, S>::Zero();
 };
 
+/// A pose in as many numbers as the dimension has.
+template <int D>
+struct PlacedAxes {
+  Matrix<D, double> rotation;
+  Vector<D, double> position;
+  PlacedAxes(const Pose& pose) : rotation(pose.matrix), position(pose.position) {}  // implicit on purpose: the same thing
+};
+
 /// With x the bodies' positions, R their rotations and c the reference points, the position of body 1's reference
 /// seen from body 0's is R0^T ((x1 - x0) + R1 c1 - R0 c0). The sum is taken in twice the precision, so that two
-/// bodies far out lose nothing where they are near each other. `scale` is the one of the shapes.
+/// bodies far out lose nothing where they are near each other; the products with R0^T round like any support. `scale` is the one of the shapes.
 template <int D, class S>
-RelativePose<D, S> relative_pose(const Pose& pose_a, const Vector<D, double>& reference_a, const Pose& pose_b,
+RelativePose<D, S> relative_pose(const PlacedAxes<D>& pose_a, const Vector<D, double>& reference_a, const PlacedAxes<D>& pose_b,
                                  const Vector<D, double>& reference_b, double scale) {
   using Two = DoubleDouble;
   Two offset[D];
   for (int i = 0; i < D; ++i) {
     offset[i] = Two::two_sum(pose_b.position[i] * scale, -(pose_a.position[i] * scale));
     for (int j = 0; j < D; ++j) {
-      if (reference_b[j] != 0) offset[i] = offset[i] + Two::two_product(pose_b.matrix(i, j), reference_b[j]);
-      if (reference_a[j] != 0) offset[i] = offset[i] - Two::two_product(pose_a.matrix(i, j), reference_a[j]);
+      if (reference_b[j] != 0) offset[i] = offset[i] + Two::two_product(pose_b.rotation(i, j), reference_b[j]);
+      if (reference_a[j] != 0) offset[i] = offset[i] - Two::two_product(pose_a.rotation(i, j), reference_a[j]);
     }
   }
-  // Scalar products in twice the precision (Dot2 of Ogita, Rump, Oishi 2005); what goes into many products is split once. Each row is
-  // (row i of R0^T) times [R1 | offset]: D + 1 sums side by side.
-  using Row = Eigen::Array<double, D + 1, 1>;
-  const auto high_part = [](const Row& x) -> Row { const Row big = x * 134217729.0; return big - (big - x); };  // DoubleDouble::split
-  std::array<Row, D> right, right_high, right_low, tail;  // tail: what `right` leaves out
-  for (int k = 0; k < D; ++k) {
-    for (int j = 0; j < D; ++j) right[k][j] = pose_b.matrix(k, j);
-    right[k][D] = offset[k].high;
-    tail[k] = Row::Zero(), tail[k][D] = offset[k].low;
-    right_high[k] = high_part(right[k]), right_low[k] = right[k] - right_high[k];
-  }
+  Vector<D, double> high, low;
+  for (int i = 0; i < D; ++i) high[i] = offset[i].high, low[i] = offset[i].low;
   RelativePose<D, S> relative;
-  for (int i = 0; i < D; ++i) {
-    Row sum = Row::Zero(), rest = Row::Zero();
-    for (int k = 0; k < D; ++k) {
-      const double left = pose_a.matrix(k, i);
-      const Two halves = Two::split(left);
-      const Row product = left * right[k];
-      const Row error = ((halves.high * right_high[k] - product) + halves.high * right_low[k] + halves.low * right_high[k]) + halves.low * right_low[k];
-      const Row total = sum + product, part = total - sum;
-      rest += ((sum - (total - part)) + (product - part)) + error + left * tail[k];
-      sum = total;
-    }
-    const Row rounded = sum + rest;
-    for (int j = 0; j < D; ++j) relative.rotation(i, j) = static_cast<S>(rounded[j]);
-    relative.position[i] = static_cast<S>(rounded[D]);
-  }
+  const Matrix<D, double> back = pose_a.rotation.transpose(), rotation = back * pose_b.rotation;
+  relative.rotation = rotation.template cast<S>();
+  relative.position = Vector<D, double>(back * high + back * low).template cast<S>();
   return relative;
 }
 
@@ -95,7 +82,8 @@ class MinkowskiDifference {
   MinkowskiDifference(const A& a, const B& b, const RelativePose<D, S>& pose)
       : a_(a), b_(b), rotation_(pose.rotation), inverse_(pose.rotation.transpose()), position_(pose.position) {
     const S magnitude = static_cast<S>(a.extent() + b.extent()) + position_.norm();
-    rounding_floor_ = 16 * std::numeric_limits<S>::epsilon() / 2 * magnitude;
+    constexpr int roundings = std::is_same_v<S, double> ? 20 : 16;
+    rounding_floor_ = roundings * std::numeric_limits<S>::epsilon() / 2 * magnitude;
   }
 
   /// The point of A - B farthest along d (body 0's frame, any length). Counts.
@@ -123,9 +111,10 @@ class MinkowskiDifference {
   /// From A's reference point towards B's: a good first direction.
   const V& position() const { return position_; }
 
-  /// How far a computed support may be off: forming R b + p and a - b rounds at most 7 times, each by half an ulp of at
-  /// most extent_a + extent_b + |p|; taking its product with a unit direction rounds 5 times more. 16 u of that
-  /// magnitude covers both. No gap below this can be told from zero by one plane.
+  /// How far a computed support may be off, with u half an ulp of 1 and m = extent_a + extent_b + |p|: forming R b + p - a rounds 5 times, its
+  /// product with a unit direction 5 times. An element of R is a sum of three products of the elements of two rotations: off by at most
+  /// 3 u |R0|^T |R1|, which stretches nothing by more than (5/3)^2, so R b + p by at most 8.4 u m. In float, R and p come from double and are off
+  /// by u each. No gap below this sum, rounded up, can be told from zero by one plane.
   S rounding_floor() const { return rounding_floor_; }
 
  private:

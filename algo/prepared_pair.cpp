@@ -36,7 +36,7 @@ class Prepared final : public PreparedPair {
   };
 
   Convex<D, S> a_, b_;
-  Pose pose_a_, pose_b_;
+  PlacedAxes<D> pose_a_, pose_b_;
   double scale_;
   LateFeatures features_a_, features_b_;
 };

@@ -31,14 +31,15 @@ struct Simplex {
   void add(const Point& point) { points[size] = point, weights[size++] = 0; }
 
   bool holds(const Vector<D, S>& w) const {
-    return std::any_of(points.begin(), points.begin() + size, [&](const Point& p) { return p.w == w; });
+    bool held = false;
+    for (int i = 0; i < size; ++i) held |= ((points[i].w.array() == w.array()).template cast<int>().sum() == D);
+    return held;
   }
 
   /// Keeps the vertices of a feature, in their order, with its weights.
   void reduce_to(const ClosestFeature<D, S>& feature) {
-    std::array<Point, D + 1> kept;
-    for (int i = 0; i < feature.count; ++i) kept[i] = points[feature.index[i]], weights[i] = feature.weight[i];
-    std::copy(kept.begin(), kept.begin() + feature.count, points.begin());
+    const std::array<Point, D + 1> before = points;
+    for (int i = 0; i < feature.count; ++i) points[i] = before[feature.index[i]], weights[i] = feature.weight[i];
     size = feature.count;
   }
 

@@ -34,7 +34,7 @@ class PairSolver {
 
  public:
   /// The working frame's lengths are the world's times `scale`, as in the shapes. Keeps references.
-  PairSolver(const A& a, const B& b, const Pose& pose_a, const Pose& pose_b, double scale, const Settings& settings,
+  PairSolver(const A& a, const B& b, const PlacedAxes<D>& pose_a, const PlacedAxes<D>& pose_b, double scale, const Settings& settings,
              Workspace<D, S>& workspace, Trace& trace, const Features* features_a = nullptr, const Features* features_b = nullptr)
       : difference_(a, b, relative_pose<D, S>(pose_a, a.reference(), pose_b, b.reference(), scale)),
         frame_(pose_a, a.reference(), scale), settings_(settings), workspace_(workspace), trace_(trace),
@@ -80,7 +80,7 @@ class PairSolver {
 
   Result counted() {
     result_.support_calls = difference_.support_calls() + more_calls_;
-    return result_;
+    return std::move(result_);
   }
 
   V first_direction() const {
@@ -98,8 +98,7 @@ class PairSolver {
     result_.intersecting = found.intersecting();
     result_.status = gjk_status_names[static_cast<std::size_t>(found.status)];
     result_.iterations = found.iterations;
-    result_.support_calls = difference_.support_calls();
-    return result_;
+    return counted();
   }
 
   bool overlapping() const {

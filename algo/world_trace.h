@@ -16,8 +16,8 @@ struct WorkingFrame {
   Vector<D, double> origin;
   double unit;  ///< 1 / scale, a power of two
 
-  WorkingFrame(const Pose& pose, const Vector<D, double>& reference, double scale)
-      : rotation(pose.matrix), origin(pose.position), unit(1 / scale) {
+  WorkingFrame(const PlacedAxes<D>& pose, const Vector<D, double>& reference, double scale)
+      : rotation(pose.rotation), origin(pose.position), unit(1 / scale) {
     if (!reference.isZero(0)) origin += rotation * (reference * unit);
   }
   Vector<D, double> vector(const Vector<D, S>& v) const { return rotation * (v.template cast<double>() * unit); }

@@ -53,7 +53,7 @@ void Convex<D, S>::set(const Geometry& g, double scale) {
     Vector<D, double> low = g.min, high = g.max;
     for (int i = 0; i < D; ++i) reference_[i] = exact_reference(low[i], high[i]);
     low -= reference_, high -= reference_;
-    core.min = (low * scale).template cast<S>(), core.max = (high * scale).template cast<S>();
+    core.corners = {(high * scale).template cast<S>(), (low * scale).template cast<S>()};
     extent_ = low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm() * scale;
     reference_ *= scale;
     core_ = core;

@@ -34,7 +34,8 @@ struct SegmentCore {
   Vector<D, S> center() const { return Vector<D, S>::Zero(); }
   Vector<D, S> support(const Vector<D, S>& d, int&) const {
     Vector<D, S> s = Vector<D, S>::Zero();
-    s[axis] = d[axis] < 0 ? -half_height : half_height;
+    const S ends[2] = {half_height, -half_height};
+    s[axis] = ends[d[axis] < 0];
     return s;
   }
 };
@@ -42,11 +43,11 @@ struct SegmentCore {
 /// A box between two corners.
 template <int D, class S>
 struct BoxCore {
-  Vector<D, S> min, max;
-  Vector<D, S> center() const { return min + (max - min) / 2; }
+  std::array<Vector<D, S>, 2> corners;  ///< the greatest, the least: looked up by the direction's signs, as no processor can guess those
+  Vector<D, S> center() const { return corners[1] + (corners[0] - corners[1]) / 2; }
   Vector<D, S> support(const Vector<D, S>& d, int&) const {
     Vector<D, S> s;
-    for (int i = 0; i < D; ++i) s[i] = d[i] < 0 ? min[i] : max[i];
+    for (int i = 0; i < D; ++i) s[i] = corners[d[i] < 0][i];
     return s;
   }
 };
