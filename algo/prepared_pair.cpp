@@ -1,5 +1,6 @@
 #include "algo/prepared_pair.h"
 
+#include "algo/closed_form.h"
 #include "algo/solve_pair.h"
 #include "shapes/convex.h"
 
@@ -10,11 +11,14 @@ template <int D, class S>
 class Prepared final : public PreparedPair {
  public:
   Prepared(const Body& a, const Body& b, double scale)
-      : a_(a.shape, scale), b_(b.shape, scale), pose_a_(a.pose), pose_b_(b.pose), scale_(scale), features_a_(a.shape), features_b_(b.shape) {}
+      : a_(a.shape, scale), b_(b.shape, scale), pose_a_(a.pose), pose_b_(b.pose), scale_(scale), features_a_(a.shape), features_b_(b.shape),
+        segment_a_(core_segment(a_)), segment_b_(core_segment(b_)) {}
 
   Result run(const Settings& settings, Query query) override {
     thread_local Workspace<D, S> workspace;  // one a thread, not one a pair: it stays in the cache
     NoTrace trace;
+    if (settings.name == MethodName::closed_form)
+      return ClosedForm<D, S, NoTrace>(segment_a_.value(), segment_b_.value(), pose_a_, pose_b_, scale_, WorkingFrame<D, S>(pose_a_, scale_), trace).run(query);
     const bool sat = settings.name == MethodName::sat;
     return PairSolver<D, S, NoTrace>(a_, b_, pose_a_, pose_b_, scale_, settings, workspace, trace, sat ? features_a_.get() : nullptr, sat ? features_b_.get() : nullptr).run(query);
   }
@@ -39,6 +43,7 @@ class Prepared final : public PreparedPair {
   PlacedAxes<D> pose_a_, pose_b_;
   double scale_;
   LateFeatures features_a_, features_b_;
+  std::optional<CoreSegment<D>> segment_a_, segment_b_;  ///< of the closed form
 };
 
 template <int D>

@@ -38,12 +38,24 @@ void check_polytopes(const Scene& scene) {
       refuse("method \"sat\" needs polytopes with or without a radius; body \"" + body.name + "\" is a " + type_name(body.shape, scene.dimension), "/method/name");
 }
 
+/// The closed form needs cores that are points or segments; on a line every body is one.
+void check_segments(const Scene& scene) {
+  for (const Body& body : scene.bodies) {
+    const PointSet* points = std::get_if<PointSet>(&body.shape.geometry);
+    const bool segment = scene.dimension == 1 || std::holds_alternative<Sphere>(body.shape.geometry) || std::holds_alternative<Capsule>(body.shape.geometry) ||
+                         (points && points->points.size() <= 2);
+    if (!segment)
+      refuse("method \"closed-form\" needs spheres, capsules, points or segments; body \"" + body.name + "\" is a " + type_name(body.shape, scene.dimension), "/method/name");
+  }
+}
+
 bool of_cast(MethodName name) { return name >= MethodName::conservative_advancement; }
 
 void check_motion(const Settings& s, const Scene& scene) {
   const std::string name(method_names[static_cast<std::size_t>(s.name)]);
   if (scene.query != Query::cast && of_cast(s.name)) refuse("method \"" + name + "\" answers only the query \"cast\"", "/method/name");
   if (scene.query == Query::cast && !of_cast(s.name)) refuse("the query \"cast\" is answered by conservative-advancement, ray-cast or root-finding, not \"" + name + "\"", "/method/name");
+  if (scene.query == Query::simulate && s.name == MethodName::closed_form) refuse("method \"closed-form\" does not answer the query \"simulate\"", "/method/name");
   if (scene.query == Query::simulate && s.name == MethodName::gjk_boolean) refuse("method \"gjk-boolean\" answers only the query \"intersect\"", "/method/name");
   if (scene.query != Query::cast && scene.query != Query::simulate) return;
   const bool all = scene.motion && std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) { return body.motion.has_value(); });
@@ -83,6 +95,7 @@ Settings resolve_settings(const Method& method, const Scene& scene) {
   s.max_iterations = method.max_iterations.value_or(s.max_iterations);
   s.initial_direction = method.initial_direction;
   if (s.name == MethodName::sat) check_polytopes(scene);
+  if (s.name == MethodName::closed_form) check_segments(scene);
   if (scene.query != Query::cast && scene.query != Query::simulate && scene.bodies.size() != 2)
     throw Error("wrong-count", "the query \"" + std::string(query_names[static_cast<std::size_t>(scene.query)]) + "\" takes two bodies, not " + std::to_string(scene.bodies.size()), "/bodies");
   check_motion(s, scene);

@@ -11,9 +11,10 @@ namespace gjkdbg {
 
 enum class MethodName {
   gjk, gjk_boolean, gjk_accelerated, mpr, sat,
+  closed_form,  ///< of cores that are points or segments (algo/closed_form.h)
   conservative_advancement, ray_cast, root_finding  ///< of `cast`; GJK runs inside (algo/cast.h)
 };
-inline constexpr std::array<std::string_view, 8> method_names{"gjk", "gjk-boolean", "gjk-accelerated", "mpr", "sat",
+inline constexpr std::array<std::string_view, 9> method_names{"gjk", "gjk-boolean", "gjk-accelerated", "mpr", "sat", "closed-form",
                                                               "conservative-advancement", "ray-cast", "root-finding"};
 
 /// The sub-algorithm that finds the point of a simplex closest to the origin.

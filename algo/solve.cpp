@@ -6,6 +6,7 @@
 #include <string>
 
 #include "algo/cast.h"
+#include "algo/closed_form.h"
 #include "algo/contact.h"
 #include "algo/motion.h"
 #include "algo/prepared_pair.h"
@@ -33,6 +34,11 @@ Result solve_convex(const Body& a, const Body& b, const Query query, const Setti
   const double scale = working_scale(std::max({size_of(a.shape), size_of(b.shape), between}), safe_range<S>);
   if (!sink) return prepare(a, b, D, settings.scalar, scale)->run(settings, query);
   const Convex<D, S> core_a(a.shape, scale), core_b(b.shape, scale);
+  if (settings.name == MethodName::closed_form) {
+    const WorkingFrame<D, S> frame(a.pose, scale);
+    WorldTrace<D, S> trace(frame, numbers, *sink);
+    return ClosedForm<D, S, WorldTrace<D, S>>(core_segment(core_a).value(), core_segment(core_b).value(), a.pose, b.pose, scale, frame, trace).run(query);
+  }
   thread_local Workspace<D, S> workspace;
   std::optional<Features> features_a, features_b;
   if (settings.name == MethodName::sat) features_a = features_of(a.shape, D), features_b = features_of(b.shape, D);

@@ -110,11 +110,7 @@ class PairSolver {
     result_.lower_bound = std::max(0.0, length(gjk_.lower_bound - radius_));
     result_.upper_bound = std::max(0.0, length(gjk_.upper_bound - radius_));
     if (!result_.intersecting) return separated();
-    result_.signed_distance = 0;
-    const V a = gjk_.simplex.point_a(), b = gjk_.simplex.point_b();
-    const S share = difference_.radius() > 0 ? difference_.radius_a() / difference_.radius() : S(0.5);
-    result_.witness_a = frame_.point(a + share * (b - a));
-    result_.witness_b = result_.witness_a;
+    set_common_point(result_, frame_, gjk_.simplex.point_a(), gjk_.simplex.point_b(), radius_a(), radius_b());
   }
 
   void penetration() {
@@ -231,21 +227,14 @@ class PairSolver {
 
   void separated() { witnesses(gjk_.simplex.point_a(), gjk_.simplex.point_b(), -gjk_.v / gjk_.distance, gjk_.distance); }
 
-  /// From core points a, b (b - a along the normal, up to rounding) and the cores' signed distance to those of the bodies.
-  /// Both are set from their middle, so that b - a = signed distance * normal holds to the last bit or two.
   /// `inflated`: a and b are of the bodies already.
   void witnesses(const V& a, const V& b, const V& normal, S core_distance, bool inflated = false) {
-    const double distance = static_cast<double>(core_distance) - radius_;
-    const Vector<D, double> n = frame_.direction(normal), middle = frame_.point(V((a + b) / 2));
-    const double ra = static_cast<double>(inflated ? radius_ / 2 : difference_.radius_a());
-    const double rb = static_cast<double>(inflated ? radius_ / 2 : difference_.radius_b());
-    result_.signed_distance = length(distance) + 0.0;  // no negative zero
-    result_.intersecting = distance <= 0;
-    result_.normal = n;
-    result_.witness_a = middle - n * length(static_cast<double>(core_distance) / 2 - ra);
-    result_.witness_b = middle + n * length(static_cast<double>(core_distance) / 2 - rb);
+    const double ra = inflated ? radius_ / 2 : radius_a(), rb = inflated ? radius_ / 2 : radius_b();
+    set_witnesses(result_, frame_, a, b, normal, static_cast<double>(core_distance), ra, rb);
   }
 
+  double radius_a() const { return static_cast<double>(difference_.radius_a()); }
+  double radius_b() const { return static_cast<double>(difference_.radius_b()); }
   double length(double working) const { return working * frame_.unit; }
 
   Difference difference_;

@@ -56,4 +56,10 @@ enum class SatStatus {
 };
 inline constexpr std::array<std::string_view, 2> sat_status_names{"overlapping", "separated"};
 
+enum class ClosedFormStatus {
+  separated,    ///< of the cores: the formula gives their distance
+  overlapping,  ///< the cores share a point, up to rounding
+};
+inline constexpr std::array<std::string_view, 2> closed_form_status_names{"separated", "overlapping"};
+
 }  // namespace gjkdbg

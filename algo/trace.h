@@ -241,6 +241,41 @@ struct SatEnded {
   }
 };
 
+/// The cores are segments (or points): their difference is corner + s edge_a - t edge_b, 0 <= s, t <= 1.
+template <class V, class Store>
+struct ClosedFormBegan {
+  static constexpr std::string_view kind = "closed_form_began";
+  V corner, edge_a, edge_b;
+  static constexpr auto fields() {
+    return std::tuple(field("corner", &ClosedFormBegan::corner), field("edge_a", &ClosedFormBegan::edge_a), field("edge_b", &ClosedFormBegan::edge_b));
+  }
+};
+
+/// Where the lines through the segments are nearest to each other (a point to a line), in or out of range. Null where one core is a point,
+/// or the lines are parallel.
+template <class V, class Store>
+struct LinesSolved {
+  static constexpr std::string_view kind = "lines_solved";
+  double s = 0, t = 0;
+  static constexpr auto fields() { return std::tuple(field("s", &LinesSolved::s), field("t", &LinesSolved::t)); }
+};
+
+/// `closest` is the point of the difference nearest to the origin, or, when `overlapping`, of its border; s and t are the parameters that give
+/// it. `normal` points from body 0 to body 1 (zero when they overlap and only that was asked). The bounds are of the bodies' signed distance.
+template <class V, class Store>
+struct ClosedFormEnded {
+  static constexpr std::string_view kind = "closed_form_ended";
+  ClosedFormStatus status = ClosedFormStatus::separated;
+  double s = 0, t = 0;
+  V closest, normal;
+  double lower_bound = 0, upper_bound = 0;
+  static constexpr auto fields() {
+    return std::tuple(field("status", &ClosedFormEnded::status), field("s", &ClosedFormEnded::s), field("t", &ClosedFormEnded::t),
+                      field("closest", &ClosedFormEnded::closest), field("normal", &ClosedFormEnded::normal),
+                      field("lower_bound", &ClosedFormEnded::lower_bound), field("upper_bound", &ClosedFormEnded::upper_bound));
+  }
+};
+
 template <class V, class Store>
 struct Warning {
   static constexpr std::string_view kind = "warning";
@@ -258,7 +293,8 @@ template <class V, class Store>
 using AllEvents = EventList<GjkBegan<V, Store>, SupportQueried<V, Store>, SimplexReduced<V, Store>, GjkEnded<V, Store>,
                             PolytopeSeeded<V, Store>, FaceChosen<V, Store>, PolytopeGrown<V, Store>, EpaEnded<V, Store>,
                             MprBegan<V, Store>, PortalFound<V, Store>, MprEnded<V, Store>, SatBegan<V, Store>,
-                            AxisTested<V, Store>, SatEnded<V, Store>, CastBegan<V, Store>, CastAdvanced<V, Store>,
+                            AxisTested<V, Store>, SatEnded<V, Store>, ClosedFormBegan<V, Store>, LinesSolved<V, Store>,
+                            ClosedFormEnded<V, Store>, CastBegan<V, Store>, CastAdvanced<V, Store>,
                             CastEnded<V, Store>, State<V, Store>, ContactFound<V, Store>, ImpulseApplied<V, Store>,
                             Warning<V, Store>>;
 

@@ -16,6 +16,8 @@ struct WorkingFrame {
   Vector<D, double> origin;
   double unit;  ///< 1 / scale, a power of two
 
+  /// The world's axes, the pose's position.
+  WorkingFrame(const PlacedAxes<D>& pose, double scale) : rotation(Matrix<D, double>::Identity()), origin(pose.position), unit(1 / scale) {}
   WorkingFrame(const PlacedAxes<D>& pose, const Vector<D, double>& reference, double scale)
       : rotation(pose.rotation), origin(pose.position), unit(1 / scale) {
     if (!reference.isZero(0)) origin += rotation * (reference * unit);
@@ -24,6 +26,28 @@ struct WorkingFrame {
   Vector<D, double> direction(const Vector<D, S>& d) const { return rotation * d.template cast<double>(); }
   Vector<D, double> point(const Vector<D, S>& p) const { return vector(p) + origin; }
 };
+
+/// From core points a, b (b - a along the normal, up to rounding) and the cores' signed distance to those of the bodies.
+/// Both are set from their middle, so that b - a = signed distance * normal holds to the last bit or two.
+template <int D, class S>
+void set_witnesses(Result& result, const WorkingFrame<D, S>& frame, const Vector<D, S>& a, const Vector<D, S>& b, const Vector<D, S>& normal, double core_distance,
+                   double radius_a, double radius_b) {
+  const double distance = core_distance - (radius_a + radius_b);
+  const Vector<D, double> n = frame.direction(normal), middle = frame.point(Vector<D, S>((a + b) / 2));
+  result.signed_distance = distance * frame.unit + 0.0;  // no negative zero
+  result.intersecting = distance <= 0;
+  result.normal = n;
+  result.witness_a = middle - n * ((core_distance / 2 - radius_a) * frame.unit);
+  result.witness_b = middle + n * ((core_distance / 2 - radius_b) * frame.unit);
+}
+
+/// The answer of a distance query to an overlap: a point of both bodies between the nearest points of their cores.
+template <int D, class S>
+void set_common_point(Result& result, const WorkingFrame<D, S>& frame, const Vector<D, S>& a, const Vector<D, S>& b, double radius_a, double radius_b) {
+  result.signed_distance = 0;
+  const S share = radius_a + radius_b > 0 ? static_cast<S>(radius_a / (radius_a + radius_b)) : S(0.5);
+  result.witness_a = result.witness_b = frame.point(Vector<D, S>(a + share * (b - a)));
+}
 
 /// Vertex and face numbers of several runs in one trace: none is used twice.
 struct TraceNumbers {
@@ -102,6 +126,14 @@ class WorldTrace {
 
   void operator()(const SatEnded<V, Viewed>& e) {
     sink_(world::SatEnded{e.iteration, e.status, frame_.direction(e.normal), length(e.distance)});
+  }
+
+  void operator()(const ClosedFormBegan<V, Viewed>& e) { sink_(world::ClosedFormBegan{frame_.vector(e.corner), frame_.vector(e.edge_a), frame_.vector(e.edge_b)}); }
+
+  void operator()(const LinesSolved<V, Viewed>& e) { sink_(world::LinesSolved{e.s, e.t}); }
+
+  void operator()(const ClosedFormEnded<V, Viewed>& e) {
+    sink_(world::ClosedFormEnded{e.status, e.s, e.t, frame_.vector(e.closest), frame_.direction(e.normal), length(e.lower_bound), length(e.upper_bound)});
   }
 
   void operator()(const CastAdvanced<V, Viewed>& e) {

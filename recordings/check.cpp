@@ -156,6 +156,9 @@ struct Walk {
   void operator()(const recorded::SatBegan&) {}
   void operator()(const recorded::AxisTested& e) { best_plane = std::max(best_plane, e.distance + c.radius); }
   void operator()(const recorded::SatEnded&) {}
+  void operator()(const recorded::ClosedFormBegan&) {}
+  void operator()(const recorded::LinesSolved&) {}
+  void operator()(const recorded::ClosedFormEnded& e) { best_plane = std::max(best_plane, e.lower_bound + c.radius); }
   /// Judged as a whole by check_motion.
   void operator()(const recorded::CastBegan&) {}
   void operator()(const recorded::CastAdvanced&) {}

@@ -46,6 +46,9 @@ struct FieldReader {
     s = static_cast<CastStatus>(read_enum(json, place, cast_status_names));
   }
   void read(const Json& json, const Place& place, std::string_view, recorded::BodyState& body) const { read_fields(json, place, body, false); }
+  void read(const Json& json, const Place& place, std::string_view, ClosedFormStatus& s) const {
+    s = static_cast<ClosedFormStatus>(read_enum(json, place, closed_form_status_names));
+  }
   void read(const Json& json, const Place& place, std::string_view, SatStatus& s) const {
     s = static_cast<SatStatus>(read_enum(json, place, sat_status_names));
   }

@@ -138,6 +138,22 @@ struct Apply {
     if (e.status == SatStatus::overlapping) frame.normal = e.normal, frame.depth = -e.distance;
   }
 
+  void operator()(const recorded::ClosedFormBegan& e) {
+    fresh();
+    frame.stage = Frame::Stage::closed_form;
+    frame.parallelogram = {e.corner, e.edge_a, e.edge_b};
+  }
+
+  void operator()(const recorded::LinesSolved&) {}
+
+  void operator()(const recorded::ClosedFormEnded& e) {
+    frame.closed_form_status = e.status;
+    frame.closest = e.closest;
+    bounds(e.lower_bound, e.upper_bound);
+    frame.stage = Frame::Stage::done;
+    if (e.status == ClosedFormStatus::overlapping && e.normal.norm() > 0) frame.normal = e.normal, frame.depth = -(e.lower_bound + e.upper_bound) / 2;
+  }
+
   void operator()(const recorded::Warning&) {}
 
   void operator()(const recorded::CastBegan&) {

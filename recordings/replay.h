@@ -35,7 +35,7 @@ struct FrameFace {
 struct Frame {
   std::size_t step = 0;  ///< index of the event this frame follows
   int iteration = 0;
-  enum class Stage { before, gjk, seed, epa, mpr, sat, done } stage = Stage::before;
+  enum class Stage { before, gjk, seed, epa, mpr, sat, closed_form, done } stage = Stage::before;
 
   std::optional<AnyVector> direction;  ///< the latest search direction, or the one that comes next
   bool answered = false;               ///< whether `newest` is the support along `direction`
@@ -60,6 +60,13 @@ struct Frame {
   std::vector<int> portal;             ///< MPR: the portal's vertices
   std::optional<AnyVector> interior;   ///< MPR: the point inside the difference that the ray starts from
 
+  /// Closed form: the difference of two segments, all corner + s edge_a - t edge_b with 0 <= s, t <= 1.
+  struct Parallelogram {
+    AnyVector corner, edge_a, edge_b;
+    bool operator==(const Parallelogram&) const = default;
+  };
+  std::optional<Parallelogram> parallelogram;
+
   /// The vertices that simplex, seeds, portal, dropped, newest, faces and removed refer to.
   std::map<int, FrameVertex> vertices;
 
@@ -79,7 +86,8 @@ struct Frame {
   std::optional<EpaStatus> epa_status;
   std::optional<MprStatus> mpr_status;
   std::optional<SatStatus> sat_status;
-  std::optional<AnyVector> normal;  ///< EPA's, MPR's or SAT's answer
+  std::optional<ClosedFormStatus> closed_form_status;
+  std::optional<AnyVector> normal;  ///< EPA's, MPR's, SAT's or the closed form's answer
   std::optional<double> depth;      ///< theirs too: of the bodies
   bool operator==(const Frame&) const = default;
 };

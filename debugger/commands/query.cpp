@@ -68,7 +68,9 @@ class Queries {
   }
 
  private:
-  static std::size_t read_block(std::istream& in, std::vector<std::string>& lines) {
+  /// A scene file is one query, however many lines it has.
+  std::size_t read_block(std::istream& in, std::vector<std::string>& lines) const {
+    if (input.ends_with(".scene.json")) return std::getline(in, lines[0], '\0') ? 1 : 0;
     std::size_t count = 0;
     while (count < lines.size() && std::getline(in, lines[count])) ++count;
     return count;
@@ -141,7 +143,7 @@ class Queries {
 void add_query(CLI::App& app, Status& status) {
   auto query = std::make_shared<Queries>();
   CLI::App* command = app.add_subcommand("query", "A scene a line in (JSON lines), a result a line out, in order");
-  command->add_option("PAIRS", query->input, "file of scenes, one a line; - for standard input")->required();
+  command->add_option("PAIRS", query->input, "file of scenes, one a line; - for standard input; or a *.scene.json")->required();
   command->add_option("-o,--output", query->output, "file to write; standard output unless given");
   command->add_option("-j,--jobs", query->jobs, "threads")->check(CLI::Range(1, 256));
   query->flags.add_to(*command);

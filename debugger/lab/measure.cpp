@@ -27,6 +27,7 @@ std::vector<Variant> variants() {
     add("Polyak", MethodName::gjk_accelerated).acceleration = Acceleration::polyak;
     add("MPR", MethodName::mpr);
     add("SAT", MethodName::sat);
+    add("closed form", MethodName::closed_form);
   }
   for (const Peer& peer : peers()) out.push_back({peer.name, {}, &peer});
   return out;
@@ -56,7 +57,7 @@ std::vector<Variant> variants(const std::vector<std::string>& names) {
 }
 
 bool applies(const Variant& variant, const Scene& scene) {
-  if (variant.peer || variant.method.name != MethodName::sat) return true;
+  if (variant.peer) return true;
   try {
     (void)resolve_settings(variant.method, scene);
     return true;

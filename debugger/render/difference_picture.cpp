@@ -19,6 +19,7 @@ class DifferencePainter : public Painter {
     region();
     polytope();
     portal();
+    parallelogram();
     fading();
     simplex();
     bound_rings();
@@ -101,6 +102,19 @@ class DifferencePainter : public Painter {
     for (const int v : frame_.portal)
       if (const FrameVertex* p = vertex(v)) picture_.line(inside, to_view(p->w), palette_.chosen.with_alpha(0.5), 1.3);
     face({-1, 0, frame_.portal, {}, 0}, palette_.chosen, 0.4, 2.6);
+  }
+
+  /// The difference of two segments, by the corner and the two edges of the formula.
+  void parallelogram() {
+    if (!frame_.parallelogram) return;
+    const ViewPoint corner = to_view(frame_.parallelogram->corner), a = to_view(frame_.parallelogram->edge_a), b = -to_view(frame_.parallelogram->edge_b);
+    picture_.faces.push_back({{corner, corner + a, corner + a + b, corner + b}, palette_.simplex.with_alpha(0.18)});
+    picture_.line(corner + b, corner + a + b, palette_.body_a.with_alpha(0.6), 1.4);
+    picture_.line(corner + a, corner + a + b, palette_.body_b.with_alpha(0.6), 1.4);
+    if (!a.isZero(0)) picture_.lines.push_back({corner, corner + a, palette_.body_a, 3, Stroke::solid, true, true}), label(corner + a, "s = 1", palette_.body_a);
+    if (!b.isZero(0)) picture_.lines.push_back({corner, corner + b, palette_.body_b, 3, Stroke::solid, true, true}), label(corner + b, "t = 1", palette_.body_b);
+    picture_.points.push_back({corner, palette_.text, 4.5, Mark::disc, -1});
+    label(corner, "c", palette_.text, 8, -12);
   }
 
   /// The simplex before the cut and the part that was kept: where the origin is seen from.

@@ -209,6 +209,28 @@ struct Explain {
     return {title, "No axis separates, so the bodies overlap; the least overlap of all axes, " + short_number(-e.distance) + " along " + short_vector(e.normal) + ", is the depth, exactly."};
   }
 
+  Explanation operator()(const recorded::ClosedFormBegan& e) const {
+    const bool a = !e.edge_a.isZero(0), b = !e.edge_b.isZero(0);
+    const std::string what = a && b ? "Both cores are segments: A - B is the parallelogram with the corner c = " : a || b ? "One core is a point, the other a segment: A - B is a segment from c = " : "Both cores are points: A - B is the point c = ";
+    return {"A formula instead of a search", what + short_vector(e.corner) + (a ? ", edge u = " + short_vector(e.edge_a) : "") + (b ? ", edge v = " + short_vector(e.edge_b) : "") + ". The radii are added afterwards."};
+  }
+
+  Explanation operator()(const recorded::LinesSolved& e) const {
+    const auto place = [](double x, const char* name) { return std::string(name) + " = " + short_number(x) + (x < 0 ? ", before its beginning" : x > 1 ? ", beyond its end" : ", within it"); };
+    const bool s = !std::isnan(e.s), t = !std::isnan(e.t);
+    if (s && t) return {"The lines are solved", "Where both derivatives of |w|\xC2\xB2 vanish the lines are nearest: " + place(e.s, "s") + ", " + place(e.t, "t") + ". What is out of range is clamped, and the other is taken anew."};
+    if (s || t) return {"The line is solved", "The foot of the perpendicular lies at " + (s ? place(e.s, "s") : place(e.t, "t")) + "."};
+    if (frame.parallelogram && !frame.parallelogram->edge_a.isZero(0)) return {"The lines are parallel", "The determinant is zero: every place along them is as near as the others, and an end of a segment will do."};
+    return {"Nothing to solve", "A point has no parameter."};
+  }
+
+  Explanation operator()(const recorded::ClosedFormEnded& e) const {
+    const std::string title = "Closed form ends: " + std::string(closed_form_status_names[static_cast<std::size_t>(e.status)]), at = "At s = " + short_number(e.s) + ", t = " + short_number(e.t) + " ";
+    if (e.status == ClosedFormStatus::separated) return {title, at + "w is nearest to the origin, " + short_number(e.closest.norm()) + " away, and the plane across it proves that. Less the radii, that is the bodies' distance."};
+    if (e.normal.norm() > 0) return {title, "The origin lies in A - B. " + at + "the border is nearest, " + short_number(e.closest.norm()) + " along " + short_vector(e.normal) + "; with the radii, that is the depth."};
+    return {title, "The origin lies in A - B, so the bodies overlap; no more was asked."};
+  }
+
   std::string body(int i) const {
     const std::string& name = recording.scene.scene.bodies[std::min(static_cast<std::size_t>(i), recording.scene.scene.bodies.size() - 1)].name;
     return name.empty() ? "body " + std::to_string(i) : name;
@@ -280,6 +302,9 @@ struct Summarise {
   std::string operator()(const recorded::SatEnded& e) const {
     return std::string(sat_status_names[static_cast<std::size_t>(e.status)]) + "  " + short_number(e.distance);
   }
+  std::string operator()(const recorded::ClosedFormBegan& e) const { return "c = " + short_vector(e.corner); }
+  std::string operator()(const recorded::LinesSolved& e) const { return "s = " + short_number(e.s) + "  t = " + short_number(e.t); }
+  std::string operator()(const recorded::ClosedFormEnded& e) const { return std::string(closed_form_status_names[static_cast<std::size_t>(e.status)]) + "  " + short_number((e.lower_bound + e.upper_bound) / 2); }
   std::string operator()(const recorded::CastBegan& e) const { return std::to_string(e.pairs.size()) + " pairs"; }
   std::string operator()(const recorded::CastAdvanced& e) const { return "t = " + short_number(e.time) + "  d = " + short_number(e.distance); }
   std::string operator()(const recorded::CastEnded& e) const { return std::string(cast_status_names[static_cast<std::size_t>(e.status)]) + "  t = " + short_number(e.time); }
@@ -294,85 +319,5 @@ struct Summarise {
 Explanation explain(const Recording& recording, const Frame& frame) { return std::visit(Explain{recording, frame}, recording.events[frame.step]); }
 
 std::string summary(const Recording& recording, std::size_t step) { return std::visit(Summarise{}, recording.events[step]); }
-
-namespace {
-
-/// Whether MPR is still looking for its first portal at this step.
-bool frame_before_portal(const Recording& recording, std::size_t step) {
-  for (std::size_t i = step + 1; i-- > 0;) {
-    if (std::holds_alternative<recorded::PortalFound>(recording.events[i])) return false;
-    if (std::holds_alternative<recorded::MprBegan>(recording.events[i])) return true;
-  }
-  return true;
-}
-
-}  // namespace
-
-PseudoCode pseudo_code(const Recording& recording, std::size_t step) {
-  const Event& event = recording.events[step];
-  const auto* query = std::get_if<recorded::SupportQueried>(&event);
-  if (std::holds_alternative<recorded::CastBegan>(event) || std::holds_alternative<recorded::CastAdvanced>(event) || std::holds_alternative<recorded::CastEnded>(event)) {
-    PseudoCode code;
-    if (recording.settings.name == MethodName::ray_cast) code = {"Ray cast", {"x = 0;  v = x - support(r)", "while |v| > tolerance", "  p = support(v)", "  if x beyond the plane at p:", "    if v.r >= 0: miss", "    x = where the ray meets it", "  v = x - point of P nearest x", "hit at x"}, -1};
-    else code = {recording.settings.name == MethodName::root_finding ? "Root finding" : "Conservative advancement", {"t = 0", "repeat", "  d, n = GJK(A at t, B at t)", "  if d within tolerance: hit", "  bound = closing speed along n", "  if bound <= 0: miss", recording.settings.name == MethodName::root_finding ? "  t = where the gap along n closes" : "  t = t + d / bound"}, -1};
-    const bool ray = recording.settings.name == MethodName::ray_cast;
-    if (std::holds_alternative<recorded::CastBegan>(event)) code.current = 0;
-    else if (const auto* e = std::get_if<recorded::CastAdvanced>(&event)) code.current = ray ? 5 : e->bound <= 0 ? 5 : 6;
-    else code.current = ray ? (std::get<recorded::CastEnded>(event).status == CastStatus::miss ? 4 : 7) : std::get<recorded::CastEnded>(event).status == CastStatus::miss ? 5 : 3;
-    return code;
-  }
-  if (std::holds_alternative<recorded::State>(event) || std::holds_alternative<recorded::ContactFound>(event) || std::holds_alternative<recorded::ImpulseApplied>(event)) {
-    PseudoCode code{"Rigid bodies", {"repeat", "  P += m g h", "  contacts: GJK, EPA for near pairs", "  impulses until none approaches", "  x, R move on by h", "  what overlaps is moved apart"}, -1};
-    if (recording.scene.scene.query == Query::cast) code = {"Response", {"move to the time of impact", "take off the velocity into the wall", "go on with what is left"}, -1};
-    const bool moving = recording.scene.scene.query == Query::cast;
-    if (std::holds_alternative<recorded::State>(event)) code.current = moving ? 2 : 0;
-    else if (std::holds_alternative<recorded::ContactFound>(event)) code.current = 2;
-    else code.current = moving ? 1 : 3;
-    return code;
-  }
-  if (std::holds_alternative<recorded::MprBegan>(event) || std::holds_alternative<recorded::PortalFound>(event) || std::holds_alternative<recorded::MprEnded>(event) ||
-      (query && query->phase == Phase::mpr)) {
-    PseudoCode code{"MPR", {"v0 = a point inside A - B", "find a portal the ray v0 O passes", "repeat", "  n = normal of the portal", "  if O on v0's side: overlap", "  w = support(n)", "  if w short of O: apart", "  if w not beyond: depth = n.w", "  portal = the part with w that the ray passes"}, -1};
-    if (std::holds_alternative<recorded::MprBegan>(event)) code.current = 0;
-    else if (std::holds_alternative<recorded::PortalFound>(event)) code.current = 3;
-    else if (query) code.current = frame_before_portal(recording, step) ? 1 : 5;
-    else code.current = std::get<recorded::MprEnded>(event).status == MprStatus::separated ? 6 : std::get<recorded::MprEnded>(event).status == MprStatus::overlapping ? 4 : 7;
-    return code;
-  }
-  if (std::holds_alternative<recorded::SatBegan>(event) || std::holds_alternative<recorded::AxisTested>(event) || std::holds_alternative<recorded::SatEnded>(event) ||
-      (query && query->phase == Phase::sat)) {
-    PseudoCode code{"SAT", {"for n in faces of A, faces of B,", "         edge of A x edge of B", "  w = support(n)", "  if n.w < 0: apart", "  depth = min(depth, n.w)", "overlap, depth"}, -1};
-    if (std::holds_alternative<recorded::SatBegan>(event)) code.current = 0;
-    else if (query) code.current = 2;
-    else if (const auto* axis = std::get_if<recorded::AxisTested>(&event)) code.current = axis->distance > 0 ? 3 : 4;
-    else code.current = std::get<recorded::SatEnded>(event).status == SatStatus::separated ? 3 : 5;
-    return code;
-  }
-  if ((query && query->phase != Phase::gjk) || std::holds_alternative<recorded::PolytopeSeeded>(event) || std::holds_alternative<recorded::FaceChosen>(event) ||
-      std::holds_alternative<recorded::PolytopeGrown>(event) || std::holds_alternative<recorded::EpaEnded>(event)) {
-    PseudoCode code{"EPA", {"P = simplex, completed to enclose O", "repeat", "  f = face of P nearest O", "  w = support(normal of f)", "  if w not beyond f: depth = |f|", "  remove the faces w sees", "  join the horizon to w"}, -1};
-    if (query) code.current = query->phase == Phase::seed ? 0 : 3;
-    else if (std::holds_alternative<recorded::PolytopeSeeded>(event)) code.current = 0;
-    else if (std::holds_alternative<recorded::FaceChosen>(event)) code.current = 2;
-    else if (std::holds_alternative<recorded::PolytopeGrown>(event)) code.current = 6;
-    else code.current = 4;
-    return code;
-  }
-  PseudoCode code;
-  if (recording.settings.name == MethodName::gjk_boolean) {
-    code = {"GJK, boolean form", {"W = { support(d) };  d = -w", "repeat", "  w = support(d)", "  if w short of O: apart", "  W = { w } + W", "  W, d = region of O, way to O", "  if W encloses O: overlap"}, -1};
-    if (std::holds_alternative<recorded::GjkBegan>(event)) code.current = 0;
-    else if (query) code.current = query->iteration == 0 ? 0 : 2;
-    else if (std::holds_alternative<recorded::SimplexReduced>(event)) code.current = 5;
-    else if (const auto* end = std::get_if<recorded::GjkEnded>(&event)) code.current = end->status == GjkStatus::separated ? 3 : 6;
-    return code;
-  }
-  code = {"GJK, distance form", {"w = support(d);  W = { w }", "repeat", "  v = point of W nearest O", "  W = the part of W that holds v", "  if v = O: overlap", "  w = support(-v)", "  if w no nearer O than v: apart", "  W = { w } + W"}, -1};
-  if (std::holds_alternative<recorded::GjkBegan>(event)) code.current = 0;
-  else if (query) code.current = query->iteration == 0 ? 0 : 5;
-  else if (std::holds_alternative<recorded::SimplexReduced>(event)) code.current = 3;
-  else if (const auto* end = std::get_if<recorded::GjkEnded>(&event)) code.current = end->status == GjkStatus::enclosed || end->status == GjkStatus::touching ? 4 : 6;
-  return code;
-}
 
 }  // namespace gjkdbg

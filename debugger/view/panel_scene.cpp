@@ -165,6 +165,20 @@ bool choice(const Theme& theme, const char* label, int& value, const Names& name
   return edited;
 }
 
+/// The methods that can answer the scene's query on its bodies.
+std::vector<int> possible_methods(const SceneFile& file) {
+  std::vector<int> out;
+  for (std::size_t i = 0; i < method_names.size(); ++i) {
+    Method m = file.method;
+    m.name = static_cast<MethodName>(i);
+    try {
+      if (resolve_settings(m, file.scene).name == *m.name) out.push_back(static_cast<int>(i));
+    } catch (const Error&) {
+    }
+  }
+  return out;
+}
+
 bool method(App& app, SceneFile& next) {
   const Theme& theme = app.theme;
   const Settings& now = app.session.recording().settings;
@@ -175,13 +189,14 @@ bool method(App& app, SceneFile& next) {
     next.scene.query = static_cast<Query>(query), edited = true;
     if (query != 0 && now.name == MethodName::gjk_boolean) next.method.name = MethodName::gjk;
   }
-  if (choice(theme, "method", name, method_names, query == 4 ? std::vector<int>{5, 6, 7} : query == 0 ? std::vector<int>{0, 1, 2, 3, 4} : std::vector<int>{0, 2, 3, 4})) next.method.name = static_cast<MethodName>(name), edited = true;
+  if (choice(theme, "method", name, method_names, possible_methods(next))) next.method.name = static_cast<MethodName>(name), edited = true;
   int part = static_cast<int>(now.closest_point);
-  if (now.name != MethodName::gjk_boolean && choice(theme, "closest point", part, closest_point_names, {0, 1, 2})) next.method.closest_point = static_cast<ClosestPoint>(part), edited = true;
+  const bool distances = now.name != MethodName::gjk_boolean && now.name != MethodName::closed_form;
+  if (distances && choice(theme, "closest point", part, closest_point_names, {0, 1, 2})) next.method.closest_point = static_cast<ClosestPoint>(part), edited = true;
   int momentum = static_cast<int>(now.acceleration), rule = static_cast<int>(now.stopping), deep = static_cast<int>(now.penetration);
   if (now.name == MethodName::gjk_accelerated && choice(theme, "momentum", momentum, acceleration_names, {0, 1})) next.method.acceleration = static_cast<Acceleration>(momentum), edited = true;
-  if (now.name != MethodName::gjk_boolean && choice(theme, "stopping", rule, stopping_names, {0, 1, 2, 3, 4})) next.method.stopping = static_cast<Stopping>(rule), edited = true;
-  if ((query == 2 || query == 3) && choice(theme, "when deep", deep, penetration_names, {0, 1, 2})) next.method.penetration = static_cast<Penetration>(deep), edited = true;
+  if (distances && choice(theme, "stopping", rule, stopping_names, {0, 1, 2, 3, 4})) next.method.stopping = static_cast<Stopping>(rule), edited = true;
+  if (distances && (query == 2 || query == 3) && choice(theme, "when deep", deep, penetration_names, {0, 1, 2})) next.method.penetration = static_cast<Penetration>(deep), edited = true;
   if (choice(theme, "scalar", scalar, scalar_names, {0, 1})) next.method.scalar = static_cast<Scalar>(scalar), next.method.tolerance.reset(), edited = true;
   ImGui::AlignTextToFramePadding();
   ImGui::TextColored(vec(theme.palette.text_soft), "tolerance");
@@ -223,6 +238,7 @@ void comparison(App& app) {
   if (ImGui::BeginCombo("##compare", s.comparing() ? s.other_title().c_str() : "nothing")) {
     if (ImGui::Selectable("nothing", !s.comparing())) s.stop_comparing();
     const Settings& now = s.recording().settings;
+    const std::vector<int> possible = possible_methods(s.scene());
     const auto offer = [&](const char* title, auto change) {
       Method method = s.scene().method;
       change(method);
@@ -232,8 +248,8 @@ void comparison(App& app) {
     else offer("double precision", [](Method& m) { m.scalar = Scalar::double_precision, m.tolerance.reset(); });
     for (const ClosestPoint part : {ClosestPoint::signed_volumes, ClosestPoint::johnson, ClosestPoint::voronoi})
       if (part != now.closest_point) offer(closest_point_names[static_cast<std::size_t>(part)].data(), [&](Method& m) { m.closest_point = part, m.name = MethodName::gjk; });
-    for (const MethodName name : {MethodName::gjk, MethodName::gjk_accelerated, MethodName::gjk_boolean, MethodName::mpr, MethodName::sat}) {
-      if (name == now.name || (name == MethodName::gjk_boolean && s.scene().scene.query != Query::intersect)) continue;
+    for (const MethodName name : {MethodName::gjk, MethodName::gjk_accelerated, MethodName::gjk_boolean, MethodName::mpr, MethodName::sat, MethodName::closed_form}) {
+      if (name == now.name || std::find(possible.begin(), possible.end(), static_cast<int>(name)) == possible.end()) continue;
       offer(method_names[static_cast<std::size_t>(name)].data(), [&](Method& m) { m.name = name; });
     }
     if (ImGui::Selectable("another recording ...")) app.ask(App::Asking::compare);

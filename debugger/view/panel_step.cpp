@@ -29,6 +29,7 @@ const char* phase_name(const Event& event, const Frame& frame) {
   if (phase_of(event) == 1) return "EPA";
   if (frame.stage == Frame::Stage::mpr || frame.mpr_status) return "MPR";
   if (frame.stage == Frame::Stage::sat || frame.sat_status) return "SAT";
+  if (frame.stage == Frame::Stage::closed_form || frame.closed_form_status) return "closed form";
   return "GJK";
 }
 
@@ -38,8 +39,9 @@ void heading(App& app) {
   const Explanation e = explain(session.recording(), session.frame());
   ImGui::PushFont(theme.small);
   const char* phase = phase_name(session.recording().events[session.step()], session.frame());
+  const std::string iteration = session.frame().parallelogram ? "" : " iteration " + std::to_string(session.frame().iteration);
   const std::string time = session.frame().time ? "  \xC2\xB7  time " + short_number(*session.frame().time) : "";
-  ImGui::TextColored(vec(theme.palette.text_faint), "Step %zu of %zu  \xC2\xB7  %s iteration %d%s", session.step(), session.count() - 1, phase, session.frame().iteration, time.c_str());
+  ImGui::TextColored(vec(theme.palette.text_faint), "Step %zu of %zu  \xC2\xB7  %s%s%s", session.step(), session.count() - 1, phase, iteration.c_str(), time.c_str());
   ImGui::PopFont();
   ImGui::PushFont(theme.title);
   ImGui::TextWrapped("%s", e.title.c_str());
@@ -171,7 +173,7 @@ void bounds(App& app) {
   if (!frame.lower_bound && !frame.upper_bound) return;
   section(theme, "SIGNED DISTANCE OF THE BODIES");
   const auto text = [](const std::optional<double>& x) { return x ? short_number(*x) : std::string("unknown"); };
-  const auto from = last_of<recorded::SimplexReduced, recorded::GjkEnded, recorded::PolytopeGrown, recorded::PortalFound, recorded::AxisTested>(app.session);
+  const auto from = last_of<recorded::SimplexReduced, recorded::GjkEnded, recorded::PolytopeGrown, recorded::PortalFound, recorded::AxisTested, recorded::ClosedFormEnded>(app.session);
   number_row(app, "at most", text(frame.upper_bound), theme.palette.text, from);
   number_row(app, "at least", text(frame.lower_bound), theme.palette.text, from);
   if (frame.lower_bound && frame.upper_bound) number_row(theme, "gap", short_number(*frame.upper_bound - *frame.lower_bound), theme.palette.text_soft);
@@ -227,7 +229,7 @@ void answer(App& app) {
   if (r.touching_at) number_row(theme, "touching at", short_number(*r.touching_at), theme.palette.text);
   if (r.energy) number_row(theme, "energy", short_number(*r.energy), theme.palette.text);
   number_row(theme, "intersecting", r.intersecting ? "yes" : "no", r.intersecting ? theme.palette.newest : theme.palette.support);
-  if (r.signed_distance) number_row(app, "signed distance", short_number(*r.signed_distance), theme.palette.text, last_of<recorded::GjkEnded, recorded::EpaEnded, recorded::MprEnded, recorded::SatEnded>(app.session));
+  if (r.signed_distance) number_row(app, "signed distance", short_number(*r.signed_distance), theme.palette.text, last_of<recorded::GjkEnded, recorded::EpaEnded, recorded::MprEnded, recorded::SatEnded, recorded::ClosedFormEnded>(app.session));
   if (r.normal) number_row(theme, "normal", short_vector(*r.normal), theme.palette.text);
   if (r.witness_a) number_row(theme, "witness a", short_vector(*r.witness_a), theme.palette.body_a);
   if (r.witness_b) number_row(theme, "witness b", short_vector(*r.witness_b), theme.palette.body_b);

@@ -143,6 +143,7 @@ void register_family(const std::string& name, const Source& source, bool three_d
   add("float", MethodName::gjk, Query::penetration, Scalar::float_precision);
   add("yes-no", MethodName::gjk, Query::intersect);
   if (name.starts_with("boxes")) add("sat", MethodName::sat);
+  if (name.starts_with("capsules")) add("closed-form", MethodName::closed_form);
   if (!three_d) return;
   for (const Peer& peer : peers())
     benchmark::RegisterBenchmark((name + "/" + peer.name).c_str(), [=, &peer](benchmark::State& state) { theirs(state, name, source, peer); })->MinTime(0.1);

@@ -44,6 +44,11 @@ struct Line {
   void operator()(const recorded::SatEnded& e) {
     out << "sat ended " << sat_status_names[static_cast<std::size_t>(e.status)] << ": " << e.distance << " along", vector(e.normal);
   }
+  void operator()(const recorded::ClosedFormBegan& e) { out << "closed form of", vector(e.corner), out << " +", vector(e.edge_a), out << " -", vector(e.edge_b); }
+  void operator()(const recorded::LinesSolved& e) { out << "lines nearest at " << e.s << " " << e.t; }
+  void operator()(const recorded::ClosedFormEnded& e) {
+    out << "closed form ended " << closed_form_status_names[static_cast<std::size_t>(e.status)] << ": v =", vector(e.closest);
+  }
   void operator()(const recorded::CastBegan& e) { out << "cast began: " << e.pairs.size() << " pairs"; }
   void operator()(const recorded::CastAdvanced& e) { out << "at " << e.time << " pair " << e.pair[0] << " " << e.pair[1] << " is " << e.distance << " apart"; }
   void operator()(const recorded::CastEnded& e) { out << "cast ended " << cast_status_names[static_cast<std::size_t>(e.status)] << " at " << e.time; }
