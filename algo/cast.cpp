@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "algo/cast_meeting.h"
 #include "algo/motion.h"
@@ -138,7 +139,7 @@ class Caster {
 
   /// GJK at a time, in the trace, and how fast the gap closes at most.
   Gap gap_of(const Pair& p, double time) {
-    const Result r = solve_static(pair_at(p, time), inner_, trace_, numbers_);
+    const Result r = solve_static(pair_at(p, time), inner_, trace_, numbers_, &simplices_[{p.shape_a, p.shape_b}]);
     numbers_.next_run();
     supports_ += r.support_calls;
     Gap gap{*r.signed_distance, *r.normal, *r.witness_a, *r.witness_b, 0};
@@ -363,6 +364,7 @@ class Caster {
   const Scene& scene_;
   const Settings& settings_;
   const Settings inner_;
+  std::map<std::pair<const Shape*, const Shape*>, std::vector<SimplexPoint>> simplices_;  ///< of Start::previous
   TraceSink* trace_;
   const int dimension_;
   std::vector<Body> bodies_;

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "algo/settings.h"
@@ -38,6 +39,7 @@ struct GjkOptions {
   bool normalised = false;   ///< of the momentum: for polytopes
   Acceleration acceleration = Acceleration::nesterov;
   Stopping stopping = Stopping::bounds;
+  std::span<const SupportPoint<D, S>> kept{};  ///< the simplex to begin with instead of the direction's support; at most D + 1
 };
 
 template <int D, class S>
@@ -67,8 +69,10 @@ class Gjk {
 
   void run() {
     trace_(GjkBegan<V, Viewed>{options_.direction});
-    add(options_.direction, options_.direction.norm());
+    if (options_.kept.empty()) add(options_.direction, options_.direction.norm());
+    else keep();
     reduce();
+    if (!options_.kept.empty()) last_ = momentum_ = result_.v;
     while (!ended()) {
       ++result_.iterations;
       const V d = accelerating_ ? accelerated_direction() : V(-result_.v);
@@ -105,6 +109,13 @@ class Gjk {
     const Point point = query(d, length);
     last_ = point.w, momentum_ = -d / length * point.w.norm();
     result_.simplex.add(point);
+  }
+
+  void keep() {
+    for (const Point& point : options_.kept) {
+      trace_(VertexKept<V, Viewed>{point.vertex, point.a, point.b, point.w});
+      result_.simplex.add(point);
+    }
   }
 
   /// Montaut et al. 2024, algorithm 3: with m = (k + 1) / (k + 3), y = m v + (1 - m) s (s the last support), the direction moves to

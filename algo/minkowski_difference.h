@@ -93,9 +93,21 @@ class MinkowskiDifference {
     point.b.noalias() = rotation_ * b_.support(-(inverse_ * d), hint_b_);
     point.b += position_;
     point.w = point.a - point.b;
-    point.vertex = calls_++;
+    point.vertex = numbers_++;
+    ++calls_;
     return point;
   }
+
+  /// A vertex of known points, each in its core's own frame. Does not count as a support.
+  Point kept(const V& a, const V& b) {
+    Point point;
+    point.a = a, point.b = rotation_ * b + position_;
+    point.w = point.a - point.b;
+    point.vertex = numbers_++;
+    return point;
+  }
+  /// A point in body 0's frame, seen from body 1's core.
+  V from_b(const V& b) const { return inverse_ * (b - position_); }
 
   /// The difference of the same bodies with body 1 moved by an offset in body 0's frame.
   MinkowskiDifference moved(const V& offset) const { return MinkowskiDifference(a_, b_, {rotation_, position_ + offset}); }
@@ -124,7 +136,7 @@ class MinkowskiDifference {
   V position_;
   S rounding_floor_;
   int hint_a_ = 0, hint_b_ = 0;
-  int calls_ = 0;
+  int calls_ = 0, numbers_ = 0;
 };
 
 }  // namespace gjkdbg

@@ -7,7 +7,8 @@
 namespace gjkdbg {
 
 /// A static query on two bodies within a longer trace: vertex and face numbers go on from `numbers`. `trace` may be null.
-Result solve_static(const Scene& scene, const Settings& settings, TraceSink* trace, TraceNumbers& numbers);
+/// With Start::previous GJK begins with `simplex` (or, when null, `initial_simplex`) and leaves its last one there; not where a mesh is one of the bodies.
+Result solve_static(const Scene& scene, const Settings& settings, TraceSink* trace, TraceNumbers& numbers, std::vector<SimplexPoint>* simplex = nullptr);
 
 /// The rotation by an angular velocity over a time: exp(w t), after Rodrigues. 1D: the identity.
 AnyMatrix rotation_by(const AnyVector& angular_velocity, double time, int dimension);

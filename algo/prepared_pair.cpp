@@ -19,9 +19,11 @@ class Prepared final : public PreparedPair {
     NoTrace trace;
     if (settings.name == MethodName::closed_form)
       return ClosedForm<D, S, NoTrace>(segment_a_.value(), segment_b_.value(), pose_a_, pose_b_, scale_, WorkingFrame<D, S>(pose_a_, scale_), trace).run(query);
+    if (settings.start == Start::previous && warm_.size == 0) warm_ = warm_start<D, S>(settings.initial_simplex, a_, b_, scale_);
     const bool sat = settings.name == MethodName::sat;
-    return PairSolver<D, S, NoTrace>(a_, b_, pose_a_, pose_b_, scale_, settings, workspace, trace, sat ? features_a_.get() : nullptr, sat ? features_b_.get() : nullptr).run(query);
+    return PairSolver<D, S, NoTrace>(a_, b_, pose_a_, pose_b_, scale_, settings, workspace, trace, sat ? features_a_.get() : nullptr, sat ? features_b_.get() : nullptr, &warm_).run(query);
   }
+  std::vector<SimplexPoint> simplex() const override { return simplex_points(warm_, a_, b_, scale_); }
   void place(const Pose& a, const Pose& b) override { pose_a_ = a, pose_b_ = b; }
 
  private:
@@ -42,6 +44,7 @@ class Prepared final : public PreparedPair {
   Convex<D, S> a_, b_;
   PlacedAxes<D> pose_a_, pose_b_;
   double scale_;
+  WarmStart<D, S> warm_;
   LateFeatures features_a_, features_b_;
   std::optional<CoreSegment<D>> segment_a_, segment_b_;  ///< of the closed form
 };

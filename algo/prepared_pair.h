@@ -15,7 +15,10 @@ class PreparedPair {
  public:
   virtual ~PreparedPair() = default;
   /// `settings` must ask for the scalar the pair was made in. Query: intersect, distance or penetration.
+  /// With Start::previous every run begins with the simplex of the one before, the first with `initial_simplex`.
   virtual Result run(const Settings& settings, Query query) = 0;
+  /// The simplex of the last run with Start::previous; empty when there was none.
+  virtual std::vector<SimplexPoint> simplex() const = 0;
   /// Where the bodies are from now on. The rotations' `matrix` must be orthonormal.
   virtual void place(const Pose& a, const Pose& b) = 0;
 };

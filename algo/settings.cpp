@@ -3,6 +3,7 @@
 #include <string>
 
 #include "algo/solve.h"
+#include "shapes/convex.h"
 #include "shapes/error.h"
 
 namespace gjkdbg {
@@ -68,6 +69,35 @@ void check_motion(const Settings& s, const Scene& scene) {
   }
 }
 
+/// Whether a point, in the body's frame, is of the body: asked of our own GJK, in double.
+bool holds(const Body& body, const AnyVector& point, int dimension) {
+  Scene probe;
+  probe.dimension = dimension, probe.query = Query::distance;
+  probe.bodies = {Body{"", body.shape, identity_pose(dimension)}, Body{"", {PointSet{PointSetKind::point, {point}, {}}, 0}, identity_pose(dimension)}};
+  return *solve(probe, resolve_settings({}, probe)).signed_distance <= 1e-9 * (size_of(body.shape) + point.norm());
+}
+
+void check_start(const Settings& s, const Scene& scene) {
+  if (s.start == Start::given && !s.initial_direction) throw Error("missing-field", "start \"given\" needs initial_direction", "/method/start");
+  if (s.start != Start::given && s.initial_direction) throw Error("contradiction", "initial_direction goes with start \"given\"", "/method/start");
+  if (s.start != Start::previous && !s.initial_simplex.empty()) throw Error("contradiction", "initial_simplex goes with start \"previous\"", "/method/start");
+  if (s.start == Start::previous && (s.name == MethodName::gjk_boolean || s.name == MethodName::mpr || s.name == MethodName::sat || s.name == MethodName::closed_form || s.name == MethodName::ray_cast))
+    refuse("start \"previous\" is GJK's; method \"" + std::string(method_names[static_cast<std::size_t>(s.name)]) + "\" keeps no simplex", "/method/start");
+  if (s.initial_simplex.empty()) return;
+  if (scene.bodies.size() != 2) throw Error("wrong-count", "initial_simplex goes with two bodies; a motion's pairs have their own", "/method/initial_simplex");
+  if (static_cast<int>(s.initial_simplex.size()) > scene.dimension + 1)
+    throw Error("wrong-count", "initial_simplex has at most " + std::to_string(scene.dimension + 1) + " vertices", "/method/initial_simplex");
+  for (std::size_t i = 0; i < s.initial_simplex.size(); ++i)
+    for (const int k : {0, 1}) {
+      const AnyVector& p = k == 0 ? s.initial_simplex[i].a : s.initial_simplex[i].b;
+      const Body& body = scene.bodies[static_cast<std::size_t>(k)];
+      const std::string where = "/method/initial_simplex/" + std::to_string(i) + (k == 0 ? "/a" : "/b");
+      if (p.size() != scene.dimension) throw Error("wrong-dimension", "needs " + std::to_string(scene.dimension) + " numbers", where);
+      if (!p.allFinite()) throw Error("non-finite", "must be finite", where);
+      if (!std::holds_alternative<Mesh>(body.shape.geometry) && !holds(body, p, scene.dimension)) throw Error("out-of-range", "is no point of body \"" + body.name + "\"", where);
+    }
+}
+
 void check_numbers(const Settings& s, int dimension) {
   if (!(s.tolerance > 0 && s.tolerance < 1)) throw Error("out-of-range", "tolerance must lie between 0 and 1", "/method/tolerance");
   if (s.max_iterations < 1 || s.max_iterations > 1000000)
@@ -94,12 +124,15 @@ Settings resolve_settings(const Method& method, const Scene& scene) {
   s.tolerance = method.tolerance.value_or(default_tolerance(scene, s));
   s.max_iterations = method.max_iterations.value_or(s.max_iterations);
   s.initial_direction = method.initial_direction;
+  s.initial_simplex = method.initial_simplex;
+  s.start = method.start.value_or(s.initial_direction ? Start::given : s.initial_simplex.empty() ? s.start : Start::previous);
   if (s.name == MethodName::sat) check_polytopes(scene);
   if (s.name == MethodName::closed_form) check_segments(scene);
   if (scene.query != Query::cast && scene.query != Query::simulate && scene.bodies.size() != 2)
     throw Error("wrong-count", "the query \"" + std::string(query_names[static_cast<std::size_t>(scene.query)]) + "\" takes two bodies, not " + std::to_string(scene.bodies.size()), "/bodies");
   check_motion(s, scene);
   check_numbers(s, scene.dimension);
+  check_start(s, scene);
   if (s.name == MethodName::gjk_boolean && scene.query != Query::intersect)
     refuse("method \"gjk-boolean\" answers only the query \"intersect\"", "/method/name");
   return s;

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "shapes/vector.h"
 
@@ -39,6 +40,19 @@ inline constexpr std::array<std::string_view, 2> acceleration_names{"nesterov", 
 enum class Penetration { epa, mpr, none };
 inline constexpr std::array<std::string_view, 3> penetration_names{"epa", "mpr", "none"};
 
+/// Where GJK begins.
+enum class Start {
+  centres,   ///< a support along the way from body 0's reference point to body 1's
+  given,     ///< a support along `initial_direction`
+  previous,  ///< the simplex the last run ended with, moved with the bodies: `initial_simplex`, or the pair's own in a motion
+};
+inline constexpr std::array<std::string_view, 3> start_names{"centres", "given", "previous"};
+
+/// A vertex of a simplex: a point of each body, in its own frame.
+struct SimplexPoint {
+  AnyVector a, b;
+};
+
 enum class Scalar { double_precision, float_precision };
 inline constexpr std::array<std::string_view, 2> scalar_names{"double", "float"};
 
@@ -50,9 +64,11 @@ struct Method {
   std::optional<Scalar> scalar;
   std::optional<Stopping> stopping;
   std::optional<Acceleration> acceleration;
+  std::optional<Start> start;
   std::optional<double> tolerance;        ///< relative gap between the bounds at which to stop, in (0, 1)
   std::optional<int> max_iterations;      ///< of each phase, >= 1
   std::optional<AnyVector> initial_direction;  ///< world frame, not zero
+  std::vector<SimplexPoint> initial_simplex;   ///< at most D + 1
 };
 
 /// Every setting, defaults filled in.
@@ -63,9 +79,11 @@ struct Settings {
   Scalar scalar = Scalar::double_precision;
   Stopping stopping = Stopping::bounds;
   Acceleration acceleration = Acceleration::nesterov;
+  Start start = Start::centres;
   double tolerance = 1e-12;
   int max_iterations = 512;
-  std::optional<AnyVector> initial_direction;  ///< unset: from body 0's reference point towards body 1's
+  std::optional<AnyVector> initial_direction;  ///< of Start::given
+  std::vector<SimplexPoint> initial_simplex;   ///< of Start::previous; empty: there is none yet, begin at the centres
 };
 
 }  // namespace gjkdbg

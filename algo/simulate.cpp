@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "algo/motion.h"
 #include "shapes/mass.h"
@@ -210,16 +211,16 @@ class Simulation {
   void contacts_of(std::size_t i, std::size_t j) {
     const Body a = placed(i), b = placed(j);
     for (const Shape& part_a : parts_[i])
-      for (const Shape& part_b : parts_[j]) contacts_of(i, j, Body{a.name, part_a, a.pose}, Body{b.name, part_b, b.pose});
+      for (const Shape& part_b : parts_[j]) contacts_of(i, j, Body{a.name, part_a, a.pose}, Body{b.name, part_b, b.pose}, simplices_[{&part_a, &part_b}]);
   }
 
   /// A mesh has a part for each triangle.
-  void contacts_of(std::size_t i, std::size_t j, const Body& part_a, const Body& part_b) {
+  void contacts_of(std::size_t i, std::size_t j, const Body& part_a, const Body& part_b, std::vector<SimplexPoint>& simplex) {
     Scene two;
     two.dimension = dimension_;
     two.query = Query::contact;
     two.bodies = {part_a, part_b};
-    const Result r = solve_static(two, settings_, trace_, numbers_);
+    const Result r = solve_static(two, settings_, trace_, numbers_, &simplex);
     numbers_.next_run();
     supports_ += r.support_calls, iterations_ += r.iterations;
     if (!r.intersecting || !r.normal || !r.contacts) return;
@@ -364,6 +365,7 @@ class Simulation {
   const V3 gravity_;
   std::vector<RigidBody> bodies_;
   std::vector<std::vector<Shape>> parts_;
+  std::map<std::pair<const Shape*, const Shape*>, std::vector<SimplexPoint>> simplices_;  ///< of Start::previous
   std::vector<Contact> contacts_;
   std::vector<bool> touched_;
   TraceNumbers numbers_;

@@ -29,10 +29,18 @@ template <class S>
 constexpr int safe_range = std::is_same_v<S, float> ? 16 : 64;
 
 template <int D, class S>
-Result solve_convex(const Body& a, const Body& b, const Query query, const Settings& settings, TraceSink* sink, TraceNumbers& numbers) {
+Result solve_convex(const Body& a, const Body& b, const Query query, const Settings& settings, TraceSink* sink, TraceNumbers& numbers, std::vector<SimplexPoint>* simplex) {
   const double between = (b.pose.position - a.pose.position).cwiseAbs().maxCoeff();
   const double scale = working_scale(std::max({size_of(a.shape), size_of(b.shape), between}), safe_range<S>);
-  if (!sink) return prepare(a, b, D, settings.scalar, scale)->run(settings, query);
+  if (!sink) {
+    const auto pair = prepare(a, b, D, settings.scalar, scale);
+    if (!simplex) return pair->run(settings, query);
+    Settings from = settings;
+    from.initial_simplex = *simplex;
+    const Result result = pair->run(from, query);
+    *simplex = pair->simplex();
+    return result;
+  }
   const Convex<D, S> core_a(a.shape, scale), core_b(b.shape, scale);
   if (settings.name == MethodName::closed_form) {
     const WorkingFrame<D, S> frame(a.pose, scale);
@@ -45,7 +53,10 @@ Result solve_convex(const Body& a, const Body& b, const Query query, const Setti
   const Features *fa = features_a ? &*features_a : nullptr, *fb = features_b ? &*features_b : nullptr;
   const WorkingFrame<D, S> frame(a.pose, core_a.reference(), scale);
   WorldTrace<D, S> trace(frame, numbers, *sink);
-  return PairSolver<D, S, WorldTrace<D, S>>(core_a, core_b, a.pose, b.pose, scale, settings, workspace, trace, fa, fb).run(query);
+  WarmStart<D, S> warm = warm_start<D, S>(simplex ? *simplex : settings.initial_simplex, core_a, core_b, scale);
+  const Result result = PairSolver<D, S, WorldTrace<D, S>>(core_a, core_b, a.pose, b.pose, scale, settings, workspace, trace, fa, fb, &warm).run(query);
+  if (simplex) *simplex = simplex_points(warm, core_a, core_b, scale);
+  return result;
 }
 
 bool nearer(const Result& x, const Result& y) {
@@ -68,14 +79,17 @@ void merge(std::optional<Result>& total, const Result& part) {
 }
 
 template <int D, class S>
-Result solve_scene(const Scene& scene, const Settings& settings, TraceSink* sink, TraceNumbers& numbers) {
+Result solve_scene(const Scene& scene, const Settings& settings, TraceSink* sink, TraceNumbers& numbers, std::vector<SimplexPoint>* simplex) {
   const Body &a = scene.bodies[0], &b = scene.bodies[1];
   const std::vector<Shape> parts_a = convex_parts(a.shape), parts_b = convex_parts(b.shape);
   std::optional<Result> total;
+  std::vector<SimplexPoint> none;
+  if (parts_a.size() * parts_b.size() > 1) simplex = &none;
   for (const Shape& part_a : parts_a)
     for (const Shape& part_b : parts_b) {
       const Body one{a.name, part_a, a.pose}, other{b.name, part_b, b.pose};
-      Result result = solve_convex<D, S>(one, other, scene.query, settings, sink, numbers);
+      none.clear();
+      Result result = solve_convex<D, S>(one, other, scene.query, settings, sink, numbers, simplex);
       numbers.next_run();
       if (scene.query == Query::contact && result.intersecting && result.normal) result.contacts = contact_points(one, other, result);
       merge(total, result);
@@ -104,13 +118,14 @@ double rounding_floor(const Scene& scene, const Settings& settings) {
   }
 }
 
-Result solve_static(const Scene& scene, const Settings& settings, TraceSink* sink, TraceNumbers& numbers) {
+Result solve_static(const Scene& scene, const Settings& settings, TraceSink* sink, TraceNumbers& numbers, std::vector<SimplexPoint>* simplex) {
+  if (settings.start != Start::previous) simplex = nullptr;
   assert(scene.bodies.size() == 2);
   const bool single = settings.scalar == Scalar::float_precision;
   switch (scene.dimension) {
-    case 1: return single ? solve_scene<1, float>(scene, settings, sink, numbers) : solve_scene<1, double>(scene, settings, sink, numbers);
-    case 2: return single ? solve_scene<2, float>(scene, settings, sink, numbers) : solve_scene<2, double>(scene, settings, sink, numbers);
-    default: return single ? solve_scene<3, float>(scene, settings, sink, numbers) : solve_scene<3, double>(scene, settings, sink, numbers);
+    case 1: return single ? solve_scene<1, float>(scene, settings, sink, numbers, simplex) : solve_scene<1, double>(scene, settings, sink, numbers, simplex);
+    case 2: return single ? solve_scene<2, float>(scene, settings, sink, numbers, simplex) : solve_scene<2, double>(scene, settings, sink, numbers, simplex);
+    default: return single ? solve_scene<3, float>(scene, settings, sink, numbers, simplex) : solve_scene<3, double>(scene, settings, sink, numbers, simplex);
   }
 }
 

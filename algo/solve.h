@@ -11,6 +11,7 @@ namespace gjkdbg {
 /// What a sink of solve() is handed: world frame, views valid during the call only.
 namespace world {
 using GjkBegan = gjkdbg::GjkBegan<AnyVector, Viewed>;
+using VertexKept = gjkdbg::VertexKept<AnyVector, Viewed>;
 using SupportQueried = gjkdbg::SupportQueried<AnyVector, Viewed>;
 using SimplexReduced = gjkdbg::SimplexReduced<AnyVector, Viewed>;
 using GjkEnded = gjkdbg::GjkEnded<AnyVector, Viewed>;

@@ -21,6 +21,32 @@
 
 namespace gjkdbg {
 
+/// The simplex GJK ended with, for the next run on the same bodies to begin with: its points in the cores' own frames, which stay
+/// points of the bodies wherever these move. (Cameron 1997; Box2D keeps the vertices' numbers, which only polytopes have.)
+template <int D, class S>
+struct WarmStart {
+  int size = 0;
+  std::array<Vector<D, S>, D + 1> a{}, b{};
+};
+
+/// From points in the bodies' frames and back: the cores' are relative to their references, and scaled.
+template <int D, class S>
+WarmStart<D, S> warm_start(const std::vector<SimplexPoint>& points, const Convex<D, S>& a, const Convex<D, S>& b, double scale) {
+  WarmStart<D, S> warm;
+  for (const SimplexPoint& p : points) {
+    const Vector<D, double> pa = p.a * scale - a.reference(), pb = p.b * scale - b.reference();
+    warm.a[warm.size] = pa.template cast<S>(), warm.b[warm.size++] = pb.template cast<S>();
+  }
+  return warm;
+}
+template <int D, class S>
+std::vector<SimplexPoint> simplex_points(const WarmStart<D, S>& warm, const Convex<D, S>& a, const Convex<D, S>& b, double scale) {
+  std::vector<SimplexPoint> points;
+  for (int i = 0; i < warm.size; ++i)
+    points.push_back({(warm.a[i].template cast<double>() + a.reference()) / scale, (warm.b[i].template cast<double>() + b.reference()) / scale});
+  return points;
+}
+
 /// Storage for repeated queries of one dimension and scalar.
 template <int D, class S>
 struct Workspace {
@@ -35,11 +61,12 @@ class PairSolver {
  public:
   /// The working frame's lengths are the world's times `scale`, as in the shapes. Keeps references.
   PairSolver(const A& a, const B& b, const PlacedAxes<D>& pose_a, const PlacedAxes<D>& pose_b, double scale, const Settings& settings,
-             Workspace<D, S>& workspace, Trace& trace, const Features* features_a = nullptr, const Features* features_b = nullptr)
+             Workspace<D, S>& workspace, Trace& trace, const Features* features_a = nullptr, const Features* features_b = nullptr,
+             WarmStart<D, S>* warm = nullptr)
       : difference_(a, b, relative_pose<D, S>(pose_a, a.reference(), pose_b, b.reference(), scale)),
         frame_(pose_a, a.reference(), scale), settings_(settings), workspace_(workspace), trace_(trace),
         radius_(static_cast<double>(difference_.radius())), polytopes_(a.polytope() && b.polytope()),
-        features_a_(features_a), features_b_(features_b) {}
+        features_a_(features_a), features_b_(features_b), warm_(settings.start == Start::previous ? warm : nullptr) {}
 
   Result run(Query query) {
     if (settings_.name == MethodName::gjk_boolean) return boolean();
@@ -56,7 +83,13 @@ class PairSolver {
     options.normalised = polytopes_;
     options.acceleration = settings_.acceleration;
     options.stopping = settings_.stopping;
+    std::array<SupportPoint<D, S>, D + 1> kept;
+    if (warm_) {
+      for (int i = 0; i < warm_->size; ++i) kept[i] = difference_.kept(warm_->a[i], warm_->b[i]);
+      options.kept = {kept.data(), static_cast<std::size_t>(warm_->size)};
+    }
     gjk_ = run_gjk(options);
+    if (warm_) keep_simplex();
     result_.status = gjk_status_names[static_cast<std::size_t>(gjk_.status)];
     result_.iterations += gjk_.iterations;
     if (query == Query::intersect) {
@@ -75,6 +108,18 @@ class PairSolver {
       case ClosestPoint::johnson: return gjk<Johnson<D, S>>(difference_, options, trace_);
       case ClosestPoint::voronoi: return gjk<VoronoiRegions<D, S>>(difference_, options, trace_);
       default: return gjk<SignedVolumes<D, S>>(difference_, options, trace_);
+    }
+  }
+
+  /// Points that were there before keep their numbers: they would drift if they were turned there and back.
+  void keep_simplex() {
+    const WarmStart<D, S> before = *warm_;
+    const Simplex<D, S>& simplex = gjk_.simplex;
+    warm_->size = simplex.size;
+    for (int i = 0; i < simplex.size; ++i) {
+      const SupportPoint<D, S>& p = simplex.points[i];
+      const bool old = p.vertex < before.size;
+      warm_->a[i] = old ? before.a[p.vertex] : p.a, warm_->b[i] = old ? before.b[p.vertex] : difference_.from_b(p.b);
     }
   }
 
@@ -245,6 +290,7 @@ class PairSolver {
   const double radius_;
   const bool polytopes_;
   const Features *features_a_, *features_b_;  ///< of SAT
+  WarmStart<D, S>* warm_;
   V push_ = V::Zero();
   int more_calls_ = 0;
   GjkResult<D, S> gjk_;

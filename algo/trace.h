@@ -64,6 +64,18 @@ struct SupportQueried {
   }
 };
 
+/// A vertex of the last run's simplex, where the bodies have carried its points since: a of body 0, b of body 1, w = a - b. It lies in the
+/// difference, though no longer always on its border.
+template <class V, class Store>
+struct VertexKept {
+  static constexpr std::string_view kind = "vertex_kept";
+  int vertex = -1;
+  V a, b, w;
+  static constexpr auto fields() {
+    return std::tuple(field("vertex", &VertexKept::vertex), field("a", &VertexKept::a), field("b", &VertexKept::b), field("w", &VertexKept::w));
+  }
+};
+
 /// The simplex `before` was cut down to `region`, whose hull holds the point `closest` to the origin, with
 /// `barycentric` weights in the order of `region`. Vertices newest first. The bounds are of the signed distance of
 /// the bodies, radii included. Boolean GJK computes neither weights nor closest point nor bounds: they are
@@ -290,7 +302,7 @@ struct EventList {};
 
 /// Every kind of event: what a sink is asked to take and a recording can hold.
 template <class V, class Store>
-using AllEvents = EventList<GjkBegan<V, Store>, SupportQueried<V, Store>, SimplexReduced<V, Store>, GjkEnded<V, Store>,
+using AllEvents = EventList<GjkBegan<V, Store>, VertexKept<V, Store>, SupportQueried<V, Store>, SimplexReduced<V, Store>, GjkEnded<V, Store>,
                             PolytopeSeeded<V, Store>, FaceChosen<V, Store>, PolytopeGrown<V, Store>, EpaEnded<V, Store>,
                             MprBegan<V, Store>, PortalFound<V, Store>, MprEnded<V, Store>, SatBegan<V, Store>,
                             AxisTested<V, Store>, SatEnded<V, Store>, ClosedFormBegan<V, Store>, LinesSolved<V, Store>,

@@ -67,6 +67,8 @@ class WorldTrace {
 
   void operator()(const GjkBegan<V, Viewed>& e) { sink_(world::GjkBegan{frame_.direction(e.direction)}); }
 
+  void operator()(const VertexKept<V, Viewed>& e) { sink_(world::VertexKept{vertex(e.vertex), frame_.point(e.a), frame_.point(e.b), frame_.vector(e.w)}); }
+
   void operator()(const SupportQueried<V, Viewed>& e) {
     sink_(world::SupportQueried{e.iteration, e.phase, frame_.direction(e.direction), vertex(e.vertex), frame_.point(e.a),
                                 frame_.point(e.b), frame_.vector(e.w)});

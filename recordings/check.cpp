@@ -37,7 +37,7 @@ std::string text_of(const AnyVector& v) {
 CheckContext::CheckContext(const Recording& r) : recording(r), dimension(r.scene.scene.dimension) {
   const auto& bodies = r.scene.scene.bodies;
   for (const Event& event : r.events)
-    if (const auto* q = std::get_if<recorded::SupportQueried>(&event)) size = std::max(size, q->w.norm());
+    if (const auto q = given_vertex(event)) size = std::max(size, q->w.norm());
   const bool moves = r.scene.scene.query == Query::cast || r.scene.scene.query == Query::simulate;
   has_supports = !moves && std::none_of(bodies.begin(), bodies.end(), [](const Body& b) { return std::holds_alternative<Mesh>(b.shape.geometry); });
   for (const Body& b : bodies) size = std::max(size, size_of(b.shape));
@@ -142,6 +142,10 @@ struct Walk {
       c.check_direction(e.direction);
     }
     c.vertices[e.vertex] = e.w;
+  }
+  void operator()(const recorded::VertexKept& e) {
+    c.vertices[e.vertex] = e.w;
+    (*run_gjk)(e);
   }
   void operator()(const recorded::SimplexReduced& e) { (*run_gjk)(e); }
   void operator()(const recorded::GjkEnded& e) { (*run_gjk)(e); }

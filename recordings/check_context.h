@@ -64,6 +64,7 @@ class GjkCheck {
  public:
   explicit GjkCheck(CheckContext& context) : c_(context) {}
   void operator()(const recorded::GjkBegan& e);
+  void operator()(const recorded::VertexKept& e) { pending_.insert(pending_.begin(), e.vertex); }
   void operator()(const recorded::SupportQueried& e);
   void operator()(const recorded::SimplexReduced& e);
   void operator()(const recorded::GjkEnded& e);

@@ -207,6 +207,17 @@ void append_settings(std::string& out, const Settings& s) {
   append_integer(out, s.max_iterations);
   append_key(out, "initial_direction");
   append_vector(out, s.initial_direction.value_or(AnyVector()));
+  if (s.start == Start::previous) name("start", start_names[static_cast<std::size_t>(s.start)], false);
+  if (!s.initial_simplex.empty()) append_key(out, "initial_simplex");
+  for (std::size_t i = 0; i < s.initial_simplex.size(); ++i) {
+    out += i == 0 ? "[{" : ",{";
+    append_key(out, "a", true);
+    append_vector(out, s.initial_simplex[i].a);
+    append_key(out, "b");
+    append_vector(out, s.initial_simplex[i].b);
+    out += '}';
+  }
+  if (!s.initial_simplex.empty()) out += ']';
   out += '}';
 }
 

@@ -3,6 +3,12 @@
 namespace gjkdbg {
 std::string generator_name() { return "gjkdbg " GJKDBG_VERSION; }
 
+std::optional<GivenVertex> given_vertex(const Event& event) {
+  if (const auto* e = std::get_if<recorded::SupportQueried>(&event)) return GivenVertex{e->vertex, e->a, e->b, e->w};
+  if (const auto* e = std::get_if<recorded::VertexKept>(&event)) return GivenVertex{e->vertex, e->a, e->b, e->w};
+  return std::nullopt;
+}
+
 std::string_view kind_name(const Event& event) {
   return std::visit([](const auto& e) { return e.kind; }, event);
 }

@@ -19,6 +19,7 @@ namespace gjkdbg {
 namespace recorded {
 using Face = FaceEvent<AnyVector, Owned>;
 using GjkBegan = gjkdbg::GjkBegan<AnyVector, Owned>;
+using VertexKept = gjkdbg::VertexKept<AnyVector, Owned>;
 using SupportQueried = gjkdbg::SupportQueried<AnyVector, Owned>;
 using SimplexReduced = gjkdbg::SimplexReduced<AnyVector, Owned>;
 using GjkEnded = gjkdbg::GjkEnded<AnyVector, Owned>;
@@ -52,6 +53,13 @@ struct VariantOf<EventList<Events...>> {
   using type = std::variant<Events...>;
 };
 using Event = VariantOf<AllEvents<AnyVector, Owned>>::type;
+
+/// The vertex of the difference that an event gives out a number for, if it does.
+struct GivenVertex {
+  int vertex;
+  const AnyVector &a, &b, &w;
+};
+std::optional<GivenVertex> given_vertex(const Event& event);
 
 /// "gjk_began", …
 std::string_view kind_name(const Event& event);

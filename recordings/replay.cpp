@@ -21,6 +21,12 @@ struct Apply {
     frame.direction = e.direction;
   }
 
+  void operator()(const recorded::VertexKept& e) {
+    frame.simplex.insert(frame.simplex.begin(), e.vertex);
+    frame.newest = e.vertex;
+    frame.direction.reset();
+  }
+
   void operator()(const recorded::SupportQueried& e) {
     frame.iteration = e.iteration;
     frame.direction = e.direction;
@@ -234,8 +240,8 @@ struct Apply {
   }
   void bounds(double lower, double upper) {
     frame.lower_bound.reset(), frame.upper_bound.reset();
-    if (lower == lower) frame.lower_bound = lower;
-    if (upper == upper) frame.upper_bound = upper;
+    if (std::isfinite(lower)) frame.lower_bound = lower;
+    if (std::isfinite(upper)) frame.upper_bound = upper;
   }
 };
 
@@ -250,7 +256,7 @@ void apply(Frame& frame, const Recording& recording, std::size_t step) {
 std::map<int, std::vector<std::size_t>> index_vertices(const Recording& recording) {
   std::map<int, std::vector<std::size_t>> index;
   for (std::size_t i = 0; i < recording.events.size(); ++i)
-    if (const auto* e = std::get_if<recorded::SupportQueried>(&recording.events[i])) index[e->vertex].push_back(i);
+    if (const auto e = given_vertex(recording.events[i])) index[e->vertex].push_back(i);
   return index;
 }
 
@@ -262,8 +268,8 @@ void fill_vertices(Frame& frame, const Recording& recording, const std::map<int,
     if (found == index.end()) return;
     const auto after = std::upper_bound(found->second.begin(), found->second.end(), frame.step);
     if (after == found->second.begin()) return;
-    const auto& e = std::get<recorded::SupportQueried>(recording.events[*(after - 1)]);
-    frame.vertices[vertex] = {vertex, *(after - 1), e.a, e.b, e.w};
+    const GivenVertex given = *given_vertex(recording.events[*(after - 1)]);
+    frame.vertices[vertex] = {vertex, *(after - 1), given.a, given.b, given.w};
   };
   if (frame.newest) need(*frame.newest);
   for (const auto* list : {&frame.simplex, &frame.dropped, &frame.seeds, &frame.portal})
@@ -282,6 +288,19 @@ Frame frame_at(const Recording& recording, std::size_t step) {
   for (std::size_t i = 0; i <= step; ++i) apply(frame, recording, i);
   fill_vertices(frame, recording, index_vertices(recording));
   return frame;
+}
+
+std::vector<SimplexPoint> last_simplex(const Recording& recording) {
+  std::size_t end = recording.events.size();
+  while (end > 0 && !std::holds_alternative<recorded::GjkEnded>(recording.events[end - 1])) --end;
+  const auto& bodies = recording.scene.scene.bodies;
+  if (end == 0 || bodies.size() != 2 || recording.scene.scene.motion) return {};
+  const Frame frame = frame_at(recording, end - 1);
+  const auto seen_from = [](const Body& body, const AnyVector& p) { return AnyVector(body.pose.matrix.transpose() * (p - body.pose.position)); };
+  std::vector<SimplexPoint> points;
+  for (const int v : frame.simplex)
+    if (const auto at = frame.vertices.find(v); at != frame.vertices.end()) points.push_back({seen_from(bodies[0], at->second.a), seen_from(bodies[1], at->second.b)});
+  return points;
 }
 
 Replay::Replay(const Recording& recording) : recording_(&recording), vertices_(index_vertices(recording)) {}

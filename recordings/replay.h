@@ -15,10 +15,10 @@
 
 namespace gjkdbg {
 
-/// A vertex of the difference, as its support query gave it.
+/// A vertex of the difference, as its support query gave it, or kept from the last run.
 struct FrameVertex {
   int vertex = -1;
-  std::size_t event = 0;  ///< the support_queried event it came from
+  std::size_t event = 0;  ///< the support_queried or vertex_kept event it came from
   AnyVector a, b, w;
   bool operator==(const FrameVertex&) const = default;
 };
@@ -94,6 +94,9 @@ struct Frame {
 
 /// Throws std::out_of_range when `step` is not an event of the recording.
 Frame frame_at(const Recording& recording, std::size_t step);
+
+/// The simplex that the last GJK run of a static scene ended with, in the bodies' frames: for Start::previous. Empty when there was none.
+std::vector<SimplexPoint> last_simplex(const Recording& recording);
 
 class Replay {
  public:

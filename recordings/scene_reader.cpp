@@ -9,6 +9,18 @@ namespace {
 
 constexpr int deepest_sum = 16;
 
+std::vector<SimplexPoint> read_simplex(const Json& json, const Place& place, int dimension) {
+  if (!json.is_array()) reject(place, "wrong-type", "must be an array of {a, b}");
+  std::vector<SimplexPoint> points;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const Place at(place, i);
+    ObjectReader o(json[i], at);
+    points.push_back({read_vector(o.required("a"), o.at("a"), dimension), read_vector(o.required("b"), o.at("b"), dimension)});
+    o.finish();
+  }
+  return points;
+}
+
 Method read_method(const Json& json, const Place& place, int dimension) {
   ObjectReader o(json, place);
   Method m;
@@ -22,6 +34,8 @@ Method read_method(const Json& json, const Place& place, int dimension) {
   if (const Json* j = o.optional("max_iterations")) m.max_iterations = read_integer(*j, o.at("max_iterations"), 1, 1000000);
   if (const Json* j = o.optional("initial_direction"); j && !j->is_null())
     m.initial_direction = read_vector(*j, o.at("initial_direction"), dimension);
+  if (const Json* j = o.optional("start")) m.start = static_cast<Start>(read_enum(*j, o.at("start"), start_names));
+  if (const Json* j = o.optional("initial_simplex")) m.initial_simplex = read_simplex(*j, o.at("initial_simplex"), dimension);
   o.finish();
   return m;
 }

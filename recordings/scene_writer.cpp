@@ -142,6 +142,8 @@ Json json_of(const Method& m) {
   if (m.tolerance) out["tolerance"] = *m.tolerance;
   if (m.max_iterations) out["max_iterations"] = *m.max_iterations;
   if (m.initial_direction) out["initial_direction"] = json_of(*m.initial_direction);
+  if (m.start) out["start"] = start_names[static_cast<std::size_t>(*m.start)];
+  for (const SimplexPoint& p : m.initial_simplex) out["initial_simplex"].push_back({{"a", json_of(p.a)}, {"b", json_of(p.b)}});
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "algo/solve.h"
+#include "recordings/replay.h"
 
 namespace gjkdbg {
 namespace fs = std::filesystem;
@@ -62,6 +63,8 @@ void MethodFlags::add_to(CLI::App& app) {
   app.add_option("--scalar", scalar_, "arithmetic")->check(CLI::IsMember(list(scalar_names)))->group(group);
   app.add_option("--stopping", stopping_, "GJK's stopping rule")->check(CLI::IsMember(list(stopping_names)))->group(group);
   app.add_option("--acceleration", acceleration_, "momentum of gjk-accelerated")->check(CLI::IsMember(list(acceleration_names)))->group(group);
+  app.add_option("--start", start_, "where GJK begins")->check(CLI::IsMember(list(start_names)))->group(group);
+  app.add_option("--start_from,--start-from", start_from_, "recording whose last simplex to begin with")->group(group);
   app.add_option("--tolerance", tolerance_, "relative gap of the bounds at which to stop")->group(group);
   app.add_option("--max_iterations,--max-iterations", max_iterations_, "of each phase")->group(group);
   app.add_option("--initial_direction,--initial-direction", initial_direction_, "first search direction, e.g. 1,0,0")->delimiter(',')->group(group);
@@ -74,6 +77,8 @@ void MethodFlags::override_in(Method& method) const {
   override_name(method.scalar, scalar_, scalar_names);
   override_name(method.stopping, stopping_, stopping_names);
   override_name(method.acceleration, acceleration_, acceleration_names);
+  override_name(method.start, start_, start_names);
+  if (!start_from_.empty()) method.start = Start::previous, method.initial_simplex = last_simplex(read_recording(start_from_)), method.initial_direction.reset();
   if (tolerance_) method.tolerance = tolerance_;
   if (max_iterations_) method.max_iterations = max_iterations_;
   if (!initial_direction_.empty()) {
@@ -81,6 +86,7 @@ void MethodFlags::override_in(Method& method) const {
     AnyVector d(static_cast<Eigen::Index>(initial_direction_.size()));
     std::copy(initial_direction_.begin(), initial_direction_.end(), d.begin());
     method.initial_direction = d;
+    if (!start_) method.start = Start::given, method.initial_simplex.clear();
   }
 }
 
@@ -94,7 +100,8 @@ Settings MethodFlags::resolve(const SceneFile& scene, const std::string& source)
     const bool by_flag = (setting == "name" && name_) || (setting == "closest_point" && closest_point_) ||
                          (setting == "penetration" && penetration_) || (setting == "scalar" && scalar_) || (setting == "stopping" && stopping_) ||
                          (setting == "tolerance" && tolerance_) || (setting == "max_iterations" && max_iterations_) ||
-                         (setting == "initial_direction" && !initial_direction_.empty());
+                         (setting == "initial_direction" && !initial_direction_.empty()) || (setting == "start" && start_);
+    if (!start_from_.empty() && setting.starts_with("initial_simplex")) throw Error(e.code(), "the simplex of " + start_from_ + " does not fit the scene: a vertex " + e.message(), "--start-from");
     if (by_flag) throw Error(e.code(), e.message(), "--" + setting);
     throw Error(e.code(), e.message(), (source.empty() ? "" : source + ": ") + e.where());
   }

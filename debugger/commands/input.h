@@ -35,7 +35,8 @@ class MethodFlags {
   Settings resolve(const SceneFile& scene, const std::string& source) const;
 
  private:
-  std::optional<std::string> name_, closest_point_, penetration_, scalar_, stopping_, acceleration_;
+  std::optional<std::string> name_, closest_point_, penetration_, scalar_, stopping_, acceleration_, start_;
+  std::string start_from_;
   std::optional<double> tolerance_;
   std::optional<int> max_iterations_;
   std::vector<double> initial_direction_;

@@ -152,8 +152,8 @@ class DifferencePainter : public Painter {
       for (const int v : e->before) {
         if (std::find(e->region.begin(), e->region.end(), v) != e->region.end() || vertex(v)) continue;
         for (std::size_t k = frame_.step - back; k-- > 0;)
-          if (const auto* query = std::get_if<recorded::SupportQueried>(&recording_.events[k]); query && query->vertex == v) {
-            picture_.points.push_back({to_view(query->w), palette_.dropped.with_alpha(cuts == 1 ? 0.55 : 0.3), 3.5, Mark::disc, -1});
+          if (const auto given = given_vertex(recording_.events[k]); given && given->vertex == v) {
+            picture_.points.push_back({to_view(given->w), palette_.dropped.with_alpha(cuts == 1 ? 0.55 : 0.3), 3.5, Mark::disc, -1});
             break;
           }
       }

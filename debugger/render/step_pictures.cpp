@@ -71,7 +71,7 @@ Camera fit_difference(const SceneMeshes& meshes, const Recording& recording) {
     bounds.add(r), bounds.add(-r);
   }
   for (const Event& event : recording.events)
-    if (const auto* query = std::get_if<recorded::SupportQueried>(&event)) bounds.add(to_view(query->w));
+    if (const auto given = given_vertex(event)) bounds.add(to_view(given->w));
   return bounds.camera(meshes.dimension);
 }
 

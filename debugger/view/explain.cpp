@@ -108,8 +108,14 @@ struct Explain {
   }
 
   Explanation operator()(const recorded::GjkBegan& e) const {
+    if (frame.step + 1 < recording.events.size() && std::holds_alternative<recorded::VertexKept>(recording.events[frame.step + 1]))
+      return {"GJK begins, warm", "It starts from the simplex the last run on these bodies ended with. If they have moved little, it is nearly right already."};
     return {"GJK begins", "The search starts along d = " + short_vector(e.direction) +
                               (recording.settings.initial_direction ? ", as the method says." : ", from A towards B. Any direction but zero would do.")};
+  }
+
+  Explanation operator()(const recorded::VertexKept& e) const {
+    return {"A vertex kept", "w = " + short_vector(e.w) + " was in the simplex the last run ended with. Its points of A and B have moved with them: it still lies in A - B, so the search goes on from there."};
   }
 
   Explanation operator()(const recorded::SupportQueried& e) const {
@@ -282,6 +288,7 @@ struct Explain {
 struct Summarise {
   std::string operator()(const recorded::GjkBegan& e) const { return "d = " + short_vector(e.direction); }
   std::string operator()(const recorded::SupportQueried& e) const { return "w = " + short_vector(e.w); }
+  std::string operator()(const recorded::VertexKept& e) const { return "w = " + short_vector(e.w); }
   std::string operator()(const recorded::SimplexReduced& e) const {
     return letters(e.before, e.before) + " -> " + letters(e.region, e.before) + (e.closest.size() > 0 ? "  |v| = " + short_number(e.closest.norm()) : "");
   }

@@ -179,6 +179,22 @@ std::vector<int> possible_methods(const SceneFile& file) {
   return out;
 }
 
+/// Where GJK begins, and the direction where one is given.
+bool start(const Theme& theme, const Settings& now, SceneFile& next) {
+  const bool gjk = now.name == MethodName::gjk || now.name == MethodName::gjk_accelerated;
+  int value = static_cast<int>(now.start);
+  bool edited = false;
+  if (choice(theme, "start", value, start_names, gjk ? std::vector<int>{0, 1, 2} : std::vector<int>{0, 1})) {
+    next.method.start = static_cast<Start>(value), edited = true;
+    next.method.initial_simplex.clear(), next.method.initial_direction.reset();
+    if (next.method.start == Start::given) next.method.initial_direction = AnyVector(AnyVector::Unit(next.scene.dimension, 0));
+  }
+  if (now.start != Start::given || !next.method.initial_direction) return edited;
+  AnyVector direction = *next.method.initial_direction;
+  if (numbers(theme, "direction", direction.data(), next.scene.dimension, 0.01f) && !direction.isZero(0)) next.method.initial_direction = direction, edited = true;
+  return edited;
+}
+
 bool method(App& app, SceneFile& next) {
   const Theme& theme = app.theme;
   const Settings& now = app.session.recording().settings;
@@ -193,6 +209,7 @@ bool method(App& app, SceneFile& next) {
   int part = static_cast<int>(now.closest_point);
   const bool distances = now.name != MethodName::gjk_boolean && now.name != MethodName::closed_form;
   if (distances && choice(theme, "closest point", part, closest_point_names, {0, 1, 2})) next.method.closest_point = static_cast<ClosestPoint>(part), edited = true;
+  if (distances && start(theme, now, next)) edited = true;
   int momentum = static_cast<int>(now.acceleration), rule = static_cast<int>(now.stopping), deep = static_cast<int>(now.penetration);
   if (now.name == MethodName::gjk_accelerated && choice(theme, "momentum", momentum, acceleration_names, {0, 1})) next.method.acceleration = static_cast<Acceleration>(momentum), edited = true;
   if (distances && choice(theme, "stopping", rule, stopping_names, {0, 1, 2, 3, 4})) next.method.stopping = static_cast<Stopping>(rule), edited = true;

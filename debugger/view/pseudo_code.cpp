@@ -78,8 +78,9 @@ PseudoCode pseudo_code(const Recording& recording, std::size_t step) {
     else if (const auto* end = std::get_if<recorded::GjkEnded>(&event)) code.current = end->status == GjkStatus::separated ? 3 : 6;
     return code;
   }
-  code = {"GJK, distance form", {"w = support(d);  W = { w }", "repeat", "  v = point of W nearest O", "  W = the part of W that holds v", "  if v = O: overlap", "  w = support(-v)", "  if w no nearer O than v: apart", "  W = { w } + W"}, -1};
-  if (std::holds_alternative<recorded::GjkBegan>(event)) code.current = 0;
+  const bool warm = recording.settings.start == Start::previous;
+  code = {"GJK, distance form", {warm ? "W = last simplex, or { support(d) }" : "w = support(d);  W = { w }", "repeat", "  v = point of W nearest O", "  W = the part of W that holds v", "  if v = O: overlap", "  w = support(-v)", "  if w no nearer O than v: apart", "  W = { w } + W"}, -1};
+  if (std::holds_alternative<recorded::GjkBegan>(event) || std::holds_alternative<recorded::VertexKept>(event)) code.current = 0;
   else if (query) code.current = query->iteration == 0 ? 0 : 5;
   else if (std::holds_alternative<recorded::SimplexReduced>(event)) code.current = 3;
   else if (const auto* end = std::get_if<recorded::GjkEnded>(&event)) code.current = end->status == GjkStatus::enclosed || end->status == GjkStatus::touching ? 4 : 6;

@@ -233,10 +233,23 @@ void Session::add_bookmark() {
     }
 }
 
+/// A warm start goes on from the simplex that is shown, as long as its points are of the bodies.
+Recording Session::record_from_here(SceneFile next) const {
+  if (next.method.start != Start::previous || next.scene.motion) return record(next);
+  next.method.initial_simplex = last_simplex(recording_);
+  try {
+    return record(next);
+  } catch (const Error& e) {
+    if (!e.where().starts_with("/method/initial_simplex")) throw;
+    next.method.initial_simplex.clear();
+    return record(next);
+  }
+}
+
 std::string Session::edit(const SceneFile& next) {
   try {
     for (const Body& body : next.scene.bodies) validate(body.shape, next.scene.dimension);
-    Recording recording = record(next);
+    Recording recording = record_from_here(next);
     const SceneFile before = recording_.scene;
     take(std::move(recording));
     if (!grouping_ || !edit_open_) undo_.push_back(before);

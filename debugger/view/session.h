@@ -86,6 +86,7 @@ class Session {
   void end_edit() { grouping_ = false; }
 
  private:
+  Recording record_from_here(SceneFile next) const;
   void take(Recording recording);
   bool tick_by_the_clock(double seconds);
   void keep_place(const Event& at, std::size_t occurrence);

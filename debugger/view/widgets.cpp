@@ -75,6 +75,7 @@ Colour event_colour(const Palette& p, const Event& event) {
   struct {
     const Palette& p;
     Colour operator()(const recorded::GjkBegan&) const { return p.text; }
+    Colour operator()(const recorded::VertexKept&) const { return p.support; }
     Colour operator()(const recorded::SupportQueried&) const { return p.support; }
     Colour operator()(const recorded::SimplexReduced&) const { return p.simplex; }
     Colour operator()(const recorded::GjkEnded&) const { return p.text; }
@@ -103,7 +104,7 @@ Colour event_colour(const Palette& p, const Event& event) {
 }
 
 const char* short_kind(const Event& event) {
-  static const char* const names[] = {"begin", "support", "simplex", "end", "polytope", "face", "grow", "end", "begin", "portal", "end", "begin", "axis", "end", "begin", "lines", "end", "begin", "advance", "end", "state", "contact", "impulse", "warning"};
+  static const char* const names[] = {"begin", "kept", "support", "simplex", "end", "polytope", "face", "grow", "end", "begin", "portal", "end", "begin", "axis", "end", "begin", "lines", "end", "begin", "advance", "end", "state", "contact", "impulse", "warning"};
   static_assert(std::size(names) == std::variant_size_v<Event>);
   return names[event.index()];
 }

@@ -19,6 +19,7 @@ struct Line {
     out << "support " << e.vertex << " (" << phase_names[static_cast<std::size_t>(e.phase)] << ") along", vector(e.direction);
     out << ": w =", vector(e.w);
   }
+  void operator()(const recorded::VertexKept& e) { out << "kept " << e.vertex << ": w =", vector(e.w); }
   void operator()(const recorded::SimplexReduced& e) {
     out << "simplex", list(e.before), out << " ->", list(e.region);
     if (e.closest.size() > 0) out << ", v =", vector(e.closest);
