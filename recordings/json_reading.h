@@ -90,4 +90,8 @@ std::size_t read_enum(const Json& json, const Place& place, const Names& names) 
   reject(place, "unknown-name", "\"" + word + "\" is not one of " + list);
 }
 
+struct Method;
+/// Settings as a scene or a recording gives them, in a scene of this dimension.
+Method read_method(const Json& json, const Place& place, int dimension);
+
 }  // namespace gjkdbg

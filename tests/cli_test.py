@@ -66,6 +66,29 @@ class Program(unittest.TestCase):
         self.assertEqual((method["scalar"], method["tolerance"], method["max_iterations"]), ("float", 1e-3, 7))
         self.assertEqual((method["penetration"], method["initial_direction"]), ("none", [0, 1, 0]))
 
+    def test_starts_where_another_run_ended(self):
+        first = str(self.path / "first.recording.json")
+        self.assertEqual(run("dump", "box-box-apart", "-o", first).returncode, 0)
+        warm = json.loads(run("dump", "box-box-apart", "--start-from", first).stdout)
+        self.assertEqual(warm["method"]["start"], "previous")
+        self.assertEqual([e["kind"] for e in warm["events"]][:4], ["gjk_began", "vertex_kept", "vertex_kept", "vertex_kept"])
+        self.assertEqual(warm["result"]["support_calls"], 1)
+        again = str(self.path / "again.recording.json")
+        run("dump", "box-box-apart", "--start-from", first, "-o", again)
+        self.assertEqual(run("verify", again).returncode, 0)
+        self.assertEqual(run("check", again).returncode, 0)
+        other = run("dump", "pair-sphere-capsule", "--start-from", first)
+        self.assertEqual((other.returncode, other.stdout), (2, ""))
+        self.assertIn("--start-from", other.stderr)
+        self.assertEqual(run("dump", "box-box-apart", "--start", "given").returncode, 2)
+        still, moved = (json.loads(run("dump", "sim-slope-slides", *flags).stdout)["result"]["support_calls"] for flags in ((), ("--start", "previous")))
+        self.assertLess(moved, still)
+
+    def test_query_takes_a_scene_file(self):
+        result = run("query", str(ROOT / "recordings/gallery/closed-form-crossing.scene.json"))
+        self.assertEqual(result.returncode, 0)
+        self.assertAlmostEqual(json.loads(result.stdout)["signed_distance"], -1.2, 12)
+
     def test_no_more_than_was_asked(self):
         for query, fields in (("intersect", []), ("distance", ["signed_distance", "witness_a"]), ("contact", ["contacts", "normal"])):
             result = json.loads(run("dump", self.write("q.json", {**CUBES, "query": query})).stdout)["result"]

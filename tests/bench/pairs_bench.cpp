@@ -4,6 +4,7 @@
 //   pairs_bench                                   all families; pairs by GJKDBG_PAIRS (200)
 //   pairs_bench --benchmark_filter='boxes-.*'     some
 //   pairs_bench --benchmark_filter='size/|gap/'   growth with hull size and with the gap
+//   pairs_bench --benchmark_filter=coherent       one pair in motion, cold and warm starts
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -94,6 +95,32 @@ void theirs(benchmark::State& state, const std::string& name, const Source& sour
   state.counters["pairs"] = static_cast<double>(ready.size());
 }
 
+/// One pair of hulls at 120 places a second, one passing the other while it turns: every query begun at the centres, or where the one before ended.
+void coherent(benchmark::State& state, int vertices, Start start) {
+  Scene scene = hull_pairs(1, vertices, 0.1)[0];
+  Method m;
+  m.start = start;
+  const Settings settings = resolve_settings(m, scene);
+  const auto pair = prepare(scene.bodies[0], scene.bodies[1], 3, settings.scalar);
+  std::vector<Pose> places;
+  Tally tally;
+  for (int i = 0; i < 120; ++i) {
+    Body& b = scene.bodies[1];
+    b.pose.position += Eigen::Vector3d(0.01, 0.005, 0);
+    b.pose.matrix = Eigen::AngleAxisd(0.02, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix() * Eigen::Matrix3d(b.pose.matrix);
+    places.push_back(b.pose);
+    pair->place(scene.bodies[0].pose, b.pose);
+    const Result r = pair->run(settings, Query::penetration);
+    tally.judge(scene, reference(scene), r.intersecting, r.signed_distance);
+  }
+  for (auto _ : state)
+    for (const Pose& place : places) {
+      pair->place(scene.bodies[0].pose, place);
+      benchmark::DoNotOptimize(pair->run(settings, Query::penetration));
+    }
+  tally.report(state, places.size());
+}
+
 /// Passes everything on to the console and keeps the times for the table at the end.
 class Table : public benchmark::ConsoleReporter {
  public:
@@ -163,6 +190,10 @@ int main(int argc, char** argv) {
     std::snprintf(name, sizeof name, "gap/%.0e", gap);
     register_family(name, [=] { return hull_pairs(pairs, 32, gap); }, true);
   }
+  for (const int vertices : {8, 32, 128, 1000})
+    for (const Start start : {Start::centres, Start::previous})
+      benchmark::RegisterBenchmark(("coherent/" + std::to_string(vertices) + "/" + std::string(start_names[static_cast<std::size_t>(start)])).c_str(),
+                                   [=](benchmark::State& state) { coherent(state, vertices, start); })->MinTime(0.1);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   Table table;
