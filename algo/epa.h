@@ -104,6 +104,7 @@ class Epa {
     lower_ = face.distance;
     if (result_.face >= 0 && !(height < best_height_)) return;
     best_height_ = height;
+    polytope_.leave_out_beyond(height + 2 * floor_);
     best_vertices_ = face.vertices;
     result_.face = number;
     result_.normal = face.normal;
@@ -253,12 +254,13 @@ class Epa {
   /// The origin's projection on the answering plane, as a combination of a face's vertices. Where that plane carries several
   /// faces, the projection lies in one of them only, not always in the one that was asked first.
   void set_points() {
-    auto weights = polytope_.weights(best_vertices_, result_.normal);
+    auto weights = polytope_.weights(best_vertices_, result_.normal, false);
     S miss = projection_error(best_vertices_, weights);
+    if (miss > floor_) weights = polytope_.weights(best_vertices_, result_.normal, true), miss = projection_error(best_vertices_, weights);
     if (miss > floor_) {
       for (const Face& face : polytope_.faces()) {
         if (face.removed || face.distance > best_height_ + floor_ || face.normal.dot(result_.normal) < S(0.999)) continue;
-        const auto others = polytope_.weights(face.vertices, result_.normal);
+        const auto others = polytope_.weights(face.vertices, result_.normal, true);
         if (const S error = projection_error(face.vertices, others); error < miss) miss = error, weights = others, best_vertices_ = face.vertices;
       }
     }

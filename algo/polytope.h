@@ -46,9 +46,10 @@ class Polytope {
   using Point = SupportPoint<D, S>;
   using Face = PolytopeFace<D, S>;
 
-  void clear() { points_.clear(), faces_.clear(), heap_.clear(); }
+  void clear() { points_.clear(), faces_.clear(), heap_.clear(), far_ = std::numeric_limits<S>::infinity(), reach_ = 0; }
   int add_point(const Point& point) {
     points_.push_back(point);
+    reach_ = std::max(reach_, point.w.cwiseAbs().maxCoeff());
     return static_cast<int>(points_.size()) - 1;
   }
 
@@ -58,8 +59,15 @@ class Polytope {
   /// The face with the smallest signed distance; -1 when there is none.
   int nearest() {
     while (!heap_.empty() && faces_[heap_.front().face].removed) pop();
+    if (heap_.empty() && far_ < std::numeric_limits<S>::infinity()) {  // more was left out than should have been: rounding
+      far_ = std::numeric_limits<S>::infinity();
+      for (int i = 0; i < static_cast<int>(faces_.size()); ++i)
+        if (!faces_[i].removed) push(i);
+    }
     return heap_.empty() ? -1 : heap_.front().face;
   }
+  /// Faces farther out than this will not be asked for: a nearer one answers.
+  void leave_out_beyond(S distance) { far_ = distance; }
 
   /// Grows by point p, which must lie outside `seen`. False, and nothing has changed, when no hull with one horizon comes of it.
   bool grow(int p, int seen);
@@ -68,8 +76,9 @@ class Polytope {
   const std::vector<Point>& points() const { return points_; }
   const std::vector<Face>& faces() const { return faces_; }
 
-  /// Weights of the face's vertices with which they make its point nearest the origin (the projection; clamped to the face).
-  std::array<S, D> weights(const std::array<int, D>& vertices, const V& normal) const;
+  /// Weights of the face's vertices with which they make its point nearest the origin (the projection; clamped to the face). `wide`: in
+  /// twice the precision, as thin faces need.
+  std::array<S, D> weights(const std::array<int, D>& vertices, const V& normal, bool wide) const;
 
  private:
   struct HeapEntry {
@@ -78,7 +87,14 @@ class Polytope {
     bool operator<(const HeapEntry& o) const { return distance > o.distance || (distance == o.distance && face > o.face); }
   };
 
+  /// Sine of the angle between a face's shorter edges below which its normal is worth less than 1e-13 in double.
+  static constexpr S thin = S(1e-3);
+
   const V& at(int i) const { return points_[i].w; }
+  void push(int face) {
+    heap_.push_back({faces_[face].distance, face});
+    std::push_heap(heap_.begin(), heap_.end());
+  }
   void pop() {
     std::pop_heap(heap_.begin(), heap_.end());
     heap_.pop_back();
@@ -93,17 +109,30 @@ class Polytope {
   std::vector<Point> points_;
   std::vector<Face> faces_;
   std::vector<HeapEntry> heap_;
+  S far_ = std::numeric_limits<S>::infinity();
+  S reach_ = 0;  ///< largest coordinate of a point, in magnitude
   Growth growth_;
   struct Ridge {
     std::array<int, 2> edge;  ///< 3D: from, to as the removed face had it; 2D: edge[0] is the shared vertex
     int outside;              ///< the face that stays
   };
   std::vector<Ridge> horizon_;
+  struct Visit {
+    int face, edge, left;  ///< the next edge to look across, and how many are left
+  };
+  std::vector<Visit> visits_;
   std::vector<char> marked_;
 };
 
+/// In space the face's own plane decides first. A normal n = e x f is off by 9 u |e| |f| at most, so the unit normal by 9 u over the sine between
+/// the edges, which set_plane keeps above `thin`; for points with coordinates up to m, no farther than 2 sqrt(3) m from one another, the height
+/// is off by less than 32 u m / thin.
 template <int D, class S>
 bool Polytope<D, S>::sees(int p, const Face& face) const {
+  if constexpr (D == 3) {
+    const S height = face.normal.dot(at(p)) - face.distance;
+    if (std::abs(height) > 32 * std::numeric_limits<S>::epsilon() / thin * reach_ && face.distance < std::numeric_limits<S>::infinity()) return height > 0;
+  }
   if constexpr (D == 3) return orientation<S>(at(face.vertices[0]), at(face.vertices[1]), at(face.vertices[2]), at(p)) >= 0;
   if constexpr (D == 2) return orientation<S>(at(face.vertices[0]), at(face.vertices[1]), at(p)) <= 0;
   if constexpr (D == 1) return face.normal[0] * (at(p)[0] - at(face.vertices[0])[0]) >= 0;
@@ -123,15 +152,18 @@ void Polytope<D, S>::set_plane(Face& face) const {
     face.distance = length > 0 ? face.normal.dot(a.dot(a) < b.dot(b) ? a : b) : std::numeric_limits<S>::infinity();
   } else {
     const V &b = at(face.vertices[1]), &c = at(face.vertices[2]);
-    const V ab = b - a, bc = c - b, ca = a - c;
-    const S sa = ab.dot(ab), sb = bc.dot(bc), sc = ca.dot(ca);
-    V n = sa <= sb && sc <= sb ? V(ca.cross(ab)) : sa <= sc && sb <= sc ? V(ab.cross(bc)) : V(bc.cross(ca));
+    // The two shorter edges, and the corner nearest the origin. Looked up: which it is, is nothing a processor can guess.
+    const V edges[3] = {b - a, c - b, a - c};
+    const S squared[3] = {edges[0].dot(edges[0]), edges[1].dot(edges[1]), edges[2].dot(edges[2])};
+    const std::size_t longest = (squared[1] >= squared[0]) & (squared[1] >= squared[2]) ? 1 : 2 * (squared[2] >= squared[0]);
+    constexpr std::size_t after[3] = {1, 2, 0};
+    const std::size_t i = after[longest], j = after[i];
+    V n = edges[i].cross(edges[j]);
     S length = n.norm();
-    const S da = a.dot(a), db = b.dot(b), dc = c.dot(c);
-    const V& near = da <= db ? (da <= dc ? a : c) : (db <= dc ? b : c);
-    constexpr S thin = S(1e-3);  // sine of the angle below which the normal is worth less than 1e-13 in double
-    const S two_shortest = std::min({sa * sb, sb * sc, sc * sa});
-    if (length * length > thin * thin * two_shortest) {
+    const S da = a.dot(a), db = b.dot(b);
+    const V* const corners[3] = {&a, &b, &c};
+    const V& near = *corners[std::min(da, db) <= c.dot(c) ? db < da : 2];
+    if (length * length > thin * thin * squared[i] * squared[j]) {
       face.normal = n / length;
       face.distance = face.normal.dot(near);
       return;
@@ -149,14 +181,12 @@ void Polytope<D, S>::set_plane(Face& face) const {
 
 template <int D, class S>
 int Polytope<D, S>::add_face(const std::array<int, D>& vertices, const std::array<int, D>& neighbours) {
-  Face face{};
-  face.vertices = vertices, face.neighbours = neighbours;
   const int number = static_cast<int>(faces_.size());
+  Face& face = faces_.emplace_back();
+  face.vertices = vertices, face.neighbours = neighbours;
   if constexpr (D == 1) face.normal[0] = neighbours[0] > 0 ? S(1) : S(-1);
   set_plane(face);
-  faces_.push_back(face);
-  heap_.push_back({face.distance, number});
-  std::push_heap(heap_.begin(), heap_.end());
+  if (face.distance <= far_) push(number);
   return number;
 }
 
@@ -179,7 +209,8 @@ void Polytope<D, S>::start(std::array<int, D + 1> s) {
   }
 }
 
-/// Marks the connected faces that p sees, and collects the ridges around them.
+/// Marks the connected faces that p sees, and collects the ridges around them: depth first, from every face on in the order of its edges, so that
+/// the ridges around a disc come in their order.
 template <int D, class S>
 void Polytope<D, S>::find_seen(int p, int seen) {
   growth_.removed.assign(1, seen);
@@ -187,19 +218,27 @@ void Polytope<D, S>::find_seen(int p, int seen) {
   marked_.resize(faces_.size(), 0);
   marked_[seen] = 1;
   if constexpr (D == 1) return;
-  for (std::size_t next = 0; next < growth_.removed.size(); ++next) {
-    const int number = growth_.removed[next];
-    for (int i = 0; i < D; ++i) {
-      const int other = faces_[number].neighbours[i];
-      if (marked_[other]) continue;
-      if (sees(p, faces_[other])) {
-        marked_[other] = 1;
-        growth_.removed.push_back(other);
-      } else {
-        const auto& v = faces_[number].vertices;
-        horizon_.push_back({{v[i], v[(i + 1) % D]}, other});
-      }
+  visits_.assign(1, {seen, 0, D});
+  while (!visits_.empty()) {
+    Visit& visit = visits_.back();
+    if (visit.left == 0) {
+      visits_.pop_back();
+      continue;
     }
+    const auto& v = faces_[visit.face].vertices;
+    const int i = visit.edge, to = i + 1 == D ? 0 : i + 1, other = faces_[visit.face].neighbours[i];
+    visit.edge = to, --visit.left;
+    if (marked_[other]) continue;
+    if (!sees(p, faces_[other])) {
+      horizon_.push_back({{v[i], v[to]}, other});
+      continue;
+    }
+    marked_[other] = 1;
+    growth_.removed.push_back(other);
+    // Its edge that was crossed begins where this one ends (2D: the crossing is a point); the walk goes on with the next.
+    const auto& next = faces_[other].vertices;
+    const int crossed = D == 3 ? (next[1] == v[to]) + 2 * (next[D - 1] == v[to]) : 1 - i;
+    visits_.push_back({other, crossed + 1 == D ? 0 : crossed + 1, D - 1});
   }
 }
 
@@ -217,6 +256,7 @@ bool Polytope<D, S>::order_horizon() {
   if (horizon_.size() < 3) return false;
   for (std::size_t i = 0; i + 1 < horizon_.size(); ++i) {
     const int to = horizon_[i].edge[1];
+    if (horizon_[i + 1].edge[0] == to) continue;
     const auto next = std::find_if(horizon_.begin() + i + 1, horizon_.end(), [&](const Ridge& r) { return r.edge[0] == to; });
     if (next == horizon_.end()) return false;
     std::swap(horizon_[i + 1], *next);
@@ -251,10 +291,8 @@ void Polytope<D, S>::close(int p) {
       const Ridge& r = horizon_[k];
       const int after = first + (k + 1) % count, before = first + (k + count - 1) % count;
       growth_.added.push_back(add_face({r.edge[0], r.edge[1], p}, {r.outside, after, before}));
-      auto& outside = faces_[r.outside];
-      for (int i = 0; i < 3; ++i)
-        if (outside.vertices[i] == r.edge[1] && outside.vertices[(i + 1) % 3] == r.edge[0])
-          outside.neighbours[i] = first + k;
+      auto& outside = faces_[r.outside];  // has the edge the other way round
+      outside.neighbours[(outside.vertices[1] == r.edge[1]) + 2 * (outside.vertices[2] == r.edge[1])] = first + k;
     }
   }
 }
@@ -272,7 +310,7 @@ bool Polytope<D, S>::grow(int p, int seen) {
 
 /// 3D: the weight of a vertex is the area of the opposite edge with the projected origin, along the normal: n . (w_j x w_k).
 template <int D, class S>
-std::array<S, D> Polytope<D, S>::weights(const std::array<int, D>& v, const V& normal) const {
+std::array<S, D> Polytope<D, S>::weights(const std::array<int, D>& v, const V& normal, [[maybe_unused]] bool wide) const {
   std::array<S, D> weight{};
   weight[0] = 1;
   if constexpr (D == 2) {
@@ -280,9 +318,12 @@ std::array<S, D> Polytope<D, S>::weights(const std::array<int, D>& v, const V& n
     const S length = e.dot(e), t = length > 0 ? -at(v[0]).dot(e) / length : S(0);
     weight[1] = std::clamp(t, S(0), S(1)), weight[0] = 1 - weight[1];
   } else if constexpr (D == 3) {
-    using W = WideVector<S>;
-    const W n(normal), a(at(v[0])), b(at(v[1])), c(at(v[2]));
-    const auto area = [&](const W& p, const W& q) { return std::max(S(0), static_cast<S>(double(n.dot(p.cross(q - p))))); };
+    const V &a = at(v[0]), &b = at(v[1]), &c = at(v[2]);
+    const auto area = [&](const V& p, const V& q) {
+      if (!wide) return std::max(S(0), normal.dot(p.cross(q - p)));
+      using W = WideVector<S>;
+      return std::max(S(0), static_cast<S>(double(W(normal).dot(W(p).cross(W::difference(q, p))))));
+    };
     weight = {area(b, c), area(c, a), area(a, b)};
     const S sum = weight[0] + weight[1] + weight[2];
     if (!(sum > 0)) return {1, 0, 0};

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "algo/solve.h"
@@ -69,12 +70,12 @@ void check_motion(const Settings& s, const Scene& scene) {
   }
 }
 
-/// Whether a point, in the body's frame, is of the body: asked of our own GJK, in double.
+/// Whether a point, in the body's frame, is of the body to rounding: asked of our own GJK, in double. One farther out would make the bounds lie.
 bool holds(const Body& body, const AnyVector& point, int dimension) {
   Scene probe;
   probe.dimension = dimension, probe.query = Query::distance;
   probe.bodies = {Body{"", body.shape, identity_pose(dimension)}, Body{"", {PointSet{PointSetKind::point, {point}, {}}, 0}, identity_pose(dimension)}};
-  return *solve(probe, resolve_settings({}, probe)).signed_distance <= 1e-9 * (size_of(body.shape) + point.norm());
+  return *solve(probe, resolve_settings({}, probe)).signed_distance <= 16 * std::numeric_limits<double>::epsilon() * (size_of(body.shape) + point.norm());
 }
 
 void check_start(const Settings& s, const Scene& scene) {

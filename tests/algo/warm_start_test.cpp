@@ -107,6 +107,7 @@ TEST(WarmStart, AnyPairFromAnotherPlace) {
     again.method.start.reset(), again.method.initial_simplex.clear();
     const Result reference = record(again).result;
     begun += method.initial_simplex.empty() ? 0 : std::holds_alternative<recorded::VertexKept>(run.events[1]);
+    EXPECT_LE(*run.result.lower_bound, *run.result.upper_bound) << k;
     const double slack = 1e-9 * std::max(size, std::abs(*reference.signed_distance)) + (*reference.upper_bound - *reference.lower_bound) + (*run.result.upper_bound - *run.result.lower_bound);
     EXPECT_NEAR(*run.result.signed_distance, *reference.signed_distance, slack) << k;
     EXPECT_EQ(*solve(warm.scene, run.settings).signed_distance, *run.result.signed_distance) << "the same with and without a trace";
