@@ -251,14 +251,15 @@ class Program(unittest.TestCase):
         for family in atlas["families"]:
             for cell in family["cells"]:
                 good = ["right", "right-within-rounding"]
-                if cell["method"] == "SAT":
-                    good.append("not-applicable")  # round shapes
-                if cell["method"] in ("signed volumes", "Johnson", "Voronoi regions", "accelerated", "Polyak", "SAT"):
+                if cell["method"] in ("SAT", "closed form"):
+                    good.append("not-applicable")  # round shapes; all but balls and segments
+                if cell["method"] in ("signed volumes", "Johnson", "Voronoi regions", "accelerated", "Polyak", "SAT", "closed form"):
                     self.assertIn(cell["verdict"], good, (family["name"], cell["method"]))
                 if cell["verdict"] not in (*good, "not-applicable"):
                     self.assertIn(cell["method"], cell["why"])
                     self.assertEqual(len(cell["scene"]["bodies"]), 2)
         verdicts = {(f["name"], c["method"]): c["verdict"] for f in atlas["families"] for c in f["cells"]}
+        self.assertIn(verdicts["C3", "closed form"], ("right", "right-within-rounding"))
         self.assertEqual(verdicts["K3", "MPR"], "wrong-value")  # as the literature has it: not the shortest way out, and its bounds admit it
         # One method alone.
         result = run("atlas", "--quick", "--method", "johnson", "-o", self.path / "one", "--gate", kept)

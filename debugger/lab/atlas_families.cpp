@@ -1,5 +1,6 @@
 // The families. Sources: the failures of other implementations gathered in the gallery; FCL's kissing boxes, MuJoCo's size ratios,
 // libccd's stacked cubes, van den Bergen's "identical shapes". Each exact answer is a closed form of the rounded input.
+#include <algorithm>
 #include <cmath>
 
 #include "debugger/lab/atlas.h"
@@ -115,6 +116,101 @@ void scales(std::vector<AtlasFamily>& out, bool quick) {
   out.push_back(ratio), out.push_back(far), out.push_back(size);
 }
 
+/// The rotation of an integer quaternion: its elements are fractions with the quaternion's squared length below.
+AnyMatrix rotation(int w, int x, int y, int z) { return Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix(); }
+
+/// Turned cubes. The first two have edges of length 2 at height 1.4 (0.6 + 0.8), across one another; the next two share their axes.
+void turned(std::vector<AtlasFamily>& out, bool quick) {
+  AtlasFamily edges{"K5", "cubes on their edges, crossed: one axis of 22 is right", {}};
+  for (const double g : gaps(quick)) {
+    const double c = 2.8 + g;
+    Scene scene = pair(cube(vec(0, 0, 0)), cube(vec(0, 0, c)));
+    scene.bodies[0].pose.matrix = rotation(2, 0, 1, 0), scene.bodies[1].pose.matrix = rotation(2, 1, 0, 0);
+    edges.cases.push_back({g, scene, static_cast<double>(c - 2.8L)});
+  }
+  AtlasFamily tilted{"K6", "tilted cubes kiss: a face in no coordinate plane, and sizes from small to large", {}};
+  for (const double size : {0.01, 0.25, 0.5, 10.0, 1000.0})
+    for (const double d : {0.0, 1e-15, -1e-15, 1e-9, -1e-9}) {
+      const AnyMatrix turn = rotation(1, 2, 3, 4);
+      const double apart = size + d * std::max(1.0, size);
+      Scene scene = pair(cube(vec(0, 0, 0), size / 2), cube(turn * vec(0, 0, apart), size / 2));
+      scene.bodies[0].pose.matrix = scene.bodies[1].pose.matrix = turn;
+      long double along = 0;
+      for (int i = 0; i < 3; ++i) along += static_cast<long double>(turn(i, 2)) * static_cast<long double>(scene.bodies[1].pose.position[i]);
+      tilted.cases.push_back({size, scene, static_cast<double>(along - static_cast<long double>(size))});
+    }
+  out.push_back(edges), out.push_back(tilted);
+}
+
+void centred(std::vector<AtlasFamily>& out, bool quick) {
+  AtlasFamily boxes{"C2", "boxes with one centre, and nearly: two normals tie", {}};
+  boxes.cases.push_back({0, pair(box(vec(1, 1, 1), vec(0, 0, 0)), box(vec(0.6, 0.8, 1), vec(0, 0, 0))), -1.6});
+  for (const double d : powers(1e-15, 1e-1, quick)) boxes.cases.push_back({d, pair(box(vec(1, 1, 1), vec(0, 0, 0)), box(vec(0.6, 0.8, 1), vec(d, 0, 0))), d - 1.6});
+  AtlasFamily ball{"C4", "a ball's centre in, on and at the corner of a cube: the core is a point on the border", {}};
+  for (const double z : {0.0, 0.5, 1 - 1e-9, 1.0, 1 + 1e-9}) ball.cases.push_back({z, pair(cube(vec(0, 0, 0)), sphere(0.5, vec(0, 0, z))), (z - 1) - 0.5});
+  ball.cases.push_back({3, pair(cube(vec(0, 0, 0)), sphere(0.5, vec(1, 1, 1))), -0.5});
+  out.push_back(boxes), out.push_back(ball);
+}
+
+/// Convex bodies with a flat fan of many triangles: a prism of n sides, with the middles of its end faces, and every third vertex twice.
+void fans(std::vector<AtlasFamily>& out, bool quick) {
+  AtlasFamily fan{"S3", "prisms of many sides: flat fans, coplanar and double vertices", {}};
+  for (const int n : quick ? std::vector<int>{8, 64} : std::vector<int>{8, 32, 128, 512}) {
+    std::vector<AnyVector> prism{vec(0, 0, 1), vec(0, 0, -1)};
+    for (int i = 0; i < n; ++i)
+      for (const double z : {-1.0, 1.0})
+        for (int twice = 0; twice <= (i % 3 == 0); ++twice) prism.push_back(vec(std::cos(2 * M_PI * i / n), std::sin(2 * M_PI * i / n), z));
+    fan.cases.push_back({static_cast<double>(n), pair(points(prism), points(prism, vec(0, 0, 2.5))), 0.5});
+    fan.cases.push_back({-static_cast<double>(n), pair(points(prism), points(prism, vec(0, 0, 1.9))), 1.9 - 2});
+  }
+  out.push_back(fan);
+}
+
+/// An ellipsoid and another, put where their tangent planes across a direction are a gap apart, touching along it: strictly convex bodies are nearest
+/// there. With M = diag(radii) and R the rotation the farthest point along n is R M M R^T n / |M R^T n|.
+Scene facing_ellipsoids(const AnyVector& radii_a, const AnyVector& radii_b, const AnyMatrix& turn, double gap) {
+  const Eigen::Vector3d n = Eigen::Vector3d(1, 2, 3).normalized();
+  const auto farthest = [&](const AnyVector& radii, const Eigen::Matrix3d& r) {
+    const Eigen::Vector3d m = radii, local = m.cwiseProduct(r.transpose() * n);
+    return Eigen::Vector3d(r * m.cwiseProduct(local) / local.norm());
+  };
+  Scene scene = pair(ellipsoid(radii_a, vec(0, 0, 0)), ellipsoid(radii_b, farthest(radii_a, Eigen::Matrix3d::Identity()) + gap * n + farthest(radii_b, turn)));
+  scene.bodies[1].pose.matrix = turn;
+  return scene;
+}
+
+void ellipsoids(std::vector<AtlasFamily>& out, bool quick) {
+  AtlasFamily ladder{"A1", "ellipsoids, longer and longer, near and slightly overlapping: every step gains less", {}};
+  for (const double aspect : {1.0, 3.0, 10.0, 30.0})
+    for (const double d : powers(1e-1, 1e-8, quick))
+      for (const double gap : {d, -d / 100}) ladder.cases.push_back({aspect, facing_ellipsoids(vec(0.5, 0.5 * aspect, 0.7), vec(0.4 * aspect, 0.6, 0.5), rotation(2, 1, 3, 1), gap), gap});
+  AtlasFamily slow{"A2", "small ellipsoids of one shape that barely overlap: slow to converge", {}};
+  for (const double d : powers(1e-3, 1e-9, quick)) slow.cases.push_back({d, facing_ellipsoids(vec(0.05, 0.07, 0.15), vec(0.05, 0.07, 0.15), rotation(3, 1, 2, 1), -d), -d});
+  out.push_back(ladder), out.push_back(slow);
+}
+
+/// The same pair of hulls told in other ways: the other one first, its vertices backwards and twice, all of it elsewhere, turned by a quarter.
+void retold(std::vector<AtlasFamily>& out, bool) {
+  AtlasFamily family{"P1", "one pair told in eight ways: the answer must not depend on the order, the place or the axes", {}};
+  std::vector<AnyVector> corners, roof{vec(-1, -1, 0), vec(1, -1, 0), vec(1, 1, 0), vec(-1, 1, 0), vec(0, 0, 2)};
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-1.0, 1.0})
+      for (const double z : {-1.0, 1.0}) corners.push_back(vec(x, y, z));
+  for (const double z : {1.25, 0.75})  // a gap and an overlap of a quarter, face against face
+    for (int way = 0; way < 8; ++way) {
+      std::vector<AnyVector> a = corners, b = roof;
+      if (way & 1) std::reverse(a.begin(), a.end()), std::reverse(b.begin(), b.end()), a.insert(a.end(), corners.begin(), corners.end());
+      Scene scene = pair(points(a), points(b, vec(0.25, 0.125, z)));
+      if (way & 2) std::swap(scene.bodies[0], scene.bodies[1]);
+      if (way & 4) {
+        const AnyMatrix quarter = Eigen::Matrix3d{{0, -1, 0}, {1, 0, 0}, {0, 0, 1}};
+        for (Body& body : scene.bodies) body.pose.position = AnyVector(quarter * body.pose.position + vec(1024, -512, 256)), body.pose.matrix = quarter;
+      }
+      family.cases.push_back({static_cast<double>(way), scene, z - 1});
+    }
+  out.push_back(family);
+}
+
 }  // namespace
 
 std::vector<AtlasFamily> atlas_families(bool quick) {
@@ -123,6 +219,12 @@ std::vector<AtlasFamily> atlas_families(bool quick) {
   overlaps(families, quick);
   degenerate(families, quick);
   scales(families, quick);
+  turned(families, quick);
+  centred(families, quick);
+  fans(families, quick);
+  ellipsoids(families, quick);
+  retold(families, quick);
+  std::stable_sort(families.begin(), families.end(), [](const AtlasFamily& a, const AtlasFamily& b) { return a.name < b.name; });
   return families;
 }
 

@@ -33,7 +33,7 @@ std::vector<std::string> methods_of(const ChartPanel& panel) {
 /// A colour a method: the scalar is told by the dash. Colour-blind safe (Okabe and Ito), peers in greys.
 std::string style_of(const std::string& method) {
   static constexpr std::pair<const char*, const char*> colours[] = {{"signed volumes", "#0072B2"}, {"Johnson", "#D55E00"}, {"Voronoi regions", "#009E73"}, {"accelerated", "#CC79A7"}, {"Polyak", "#E69F00"},
-                                                                    {"MPR", "#56B4E9"},            {"SAT", "#B8A800"},     {"Bullet", "#222222"},          {"FCL", "#555555"},         {"libccd GJK", "#777777"},
+                                                                    {"MPR", "#56B4E9"},            {"SAT", "#B8A800"},     {"closed form", "#7B3294"}, {"Bullet", "#222222"},          {"FCL", "#555555"},         {"libccd GJK", "#777777"},
                                                                     {"libccd MPR", "#999999"},     {"ODE", "#BBBBBB"}};
   const char* colour = "#000000";
   for (const auto& [name, value] : colours)
@@ -60,7 +60,9 @@ std::string panels(const Chart& chart, const std::string& terminal, const std::s
     for (const std::string& method : methods_of(panel))
       if (std::any_of(panel.points.begin(), panel.points.end(), [&](const ChartPoint& p) { return p.variant == method && shown(p); })) methods.push_back(method);
     if (methods.empty()) continue;
-    out += "set title '" + panel.title + "' font ',11'\nset yrange [*:*]\nplot ";
+    // A long legend stands below the curves.
+    const auto unexplained = std::count_if(methods.begin(), methods.end(), [&](const std::string& method) { return !explained.contains(method); });
+    out += "set title '" + panel.title + "' font ',11'\nset yrange [" + (unexplained > 4 ? "10" : "*") + ":*]\nplot ";
     for (const std::string& method : methods) out += "'-' using 1:2 with linespoints " + style_of(method) + (explained.insert(method).second ? " title '" + method + "'" : " notitle") + ", ";
     out += "'-' using 1:2 with points pt 6 ps 1.3 lc rgb '#000000' notitle\n";
     const auto data = [&](const ChartPoint& p) { out += number(std::max(axis.x(p), smallest_drawn)) + " " + number(p.nanoseconds) + "\n"; };
