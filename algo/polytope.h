@@ -155,7 +155,7 @@ void Polytope<D, S>::set_plane(Face& face) const {
     // The two shorter edges, and the corner nearest the origin. Looked up: which it is, is nothing a processor can guess.
     const V edges[3] = {b - a, c - b, a - c};
     const S squared[3] = {edges[0].dot(edges[0]), edges[1].dot(edges[1]), edges[2].dot(edges[2])};
-    const std::size_t longest = (squared[1] >= squared[0]) & (squared[1] >= squared[2]) ? 1 : 2 * (squared[2] >= squared[0]);
+    const std::size_t longest = ((squared[1] >= squared[0]) & (squared[1] >= squared[2])) != 0 ? 1 : 2 * (squared[2] >= squared[0]);
     constexpr std::size_t after[3] = {1, 2, 0};
     const std::size_t i = after[longest], j = after[i];
     V n = edges[i].cross(edges[j]);
