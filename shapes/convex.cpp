@@ -78,6 +78,7 @@ void Convex<D, S>::set(const Geometry& g, double scale) {
     set_vertices(std::move(points), scale);
     if (D == 3 && hull.rank == 3 && hull.vertices.size() >= hill_climbing_from && !hull.neighbours.empty()) {
       HullCore<D, S> climbing{std::move(std::get<VerticesCore<D, S>>(core_).vertices), hull.first_neighbour, hull.neighbours, {}};
+      climbing.line_up();
       climbing.find_starts();
       core_ = std::move(climbing);
     }
