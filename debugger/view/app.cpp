@@ -218,10 +218,12 @@ void App::top_bar(const Area& area) {
   if (session.is_open()) {
     const bool overlap = session.recording().result.intersecting;
     const std::string result = result_text(session.recording());
-    const std::string method = method_text(session.recording().settings) + "  \xC2\xB7  " + std::string(query_names[static_cast<std::size_t>(session.scene().scene.query)]);
+    std::string method = method_text(session.recording().settings) + "  \xC2\xB7  " + std::string(query_names[static_cast<std::size_t>(session.scene().scene.query)]);
     const auto width = [&](const std::string& text) { return theme.small->CalcTextSizeA(theme.small->FontSize, 1e6f, 0, text.c_str()).x + theme.px(22); };
-    const float chips = width(result) + width(method) + theme.px(8), title = ImGui::CalcTextSize(session.title().c_str()).x;
-    const float middle = area.width / 2 - title / 2, here = ImGui::GetItemRectMax().x + theme.px(16);
+    const float here = ImGui::GetItemRectMax().x + theme.px(16), title = ImGui::CalcTextSize(session.title().c_str()).x, middle = area.width / 2 - title / 2;
+    const auto both = [&] { return width(result) + width(method) + theme.px(8); };
+    if (area.width - both() - theme.px(16) < here) method = method_text(session.recording().settings);  // a narrow window: the query is left out
+    const float chips = both();
     if (std::max(middle, here) + title < area.width - chips - theme.px(24)) {
       ImGui::SameLine(std::max(middle, here));
       ImGui::TextUnformatted(session.title().c_str());

@@ -215,6 +215,7 @@ bool method(App& app, SceneFile& next) {
   if (distances && choice(theme, "stopping", rule, stopping_names, {0, 1, 2, 3, 4})) next.method.stopping = static_cast<Stopping>(rule), edited = true;
   if (distances && (query == 2 || query == 3) && choice(theme, "when deep", deep, penetration_names, {0, 1, 2})) next.method.penetration = static_cast<Penetration>(deep), edited = true;
   if (choice(theme, "scalar", scalar, scalar_names, {0, 1})) next.method.scalar = static_cast<Scalar>(scalar), next.method.tolerance.reset(), edited = true;
+  if (now.name == MethodName::closed_form) return edited;  // a formula neither converges nor iterates
   ImGui::AlignTextToFramePadding();
   ImGui::TextColored(vec(theme.palette.text_soft), "tolerance");
   ImGui::SameLine(theme.px(100));

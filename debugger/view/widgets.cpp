@@ -114,6 +114,7 @@ std::string method_text(const Settings& s) {
   if (s.name == MethodName::gjk_accelerated && s.acceleration == Acceleration::polyak) text += " \xC2\xB7 polyak";
   if (s.closest_point != ClosestPoint::signed_volumes) text += " \xC2\xB7 " + std::string(closest_point_names[static_cast<std::size_t>(s.closest_point)]);
   if (s.stopping != Stopping::bounds) text += " \xC2\xB7 " + std::string(stopping_names[static_cast<std::size_t>(s.stopping)]);
+  if (s.start == Start::previous) text += " \xC2\xB7 warm";
   return text + " \xC2\xB7 " + std::string(scalar_names[static_cast<std::size_t>(s.scalar)]);
 }
 
