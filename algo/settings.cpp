@@ -78,11 +78,22 @@ bool holds(const Body& body, const AnyVector& point, int dimension) {
   return *solve(probe, resolve_settings({}, probe)).signed_distance <= 16 * std::numeric_limits<double>::epsilon() * (size_of(body.shape) + point.norm());
 }
 
+bool keeps_simplex(MethodName name) {
+  switch (name) {
+    case MethodName::gjk_boolean:
+    case MethodName::mpr:
+    case MethodName::sat:
+    case MethodName::closed_form:
+    case MethodName::ray_cast: return false;
+    default: return true;
+  }
+}
+
 void check_start(const Settings& s, const Scene& scene) {
   if (s.start == Start::given && !s.initial_direction) throw Error("missing-field", "start \"given\" needs initial_direction", "/method/start");
   if (s.start != Start::given && s.initial_direction) throw Error("contradiction", "initial_direction goes with start \"given\"", "/method/start");
   if (s.start != Start::previous && !s.initial_simplex.empty()) throw Error("contradiction", "initial_simplex goes with start \"previous\"", "/method/start");
-  if (s.start == Start::previous && (s.name == MethodName::gjk_boolean || s.name == MethodName::mpr || s.name == MethodName::sat || s.name == MethodName::closed_form || s.name == MethodName::ray_cast))
+  if (s.start == Start::previous && !keeps_simplex(s.name))
     refuse("start \"previous\" is GJK's; method \"" + std::string(method_names[static_cast<std::size_t>(s.name)]) + "\" keeps no simplex", "/method/start");
   if (s.initial_simplex.empty()) return;
   if (scene.bodies.size() != 2) throw Error("wrong-count", "initial_simplex goes with two bodies; a motion's pairs have their own", "/method/initial_simplex");
@@ -111,6 +122,13 @@ void check_numbers(const Settings& s, int dimension) {
 }
 
 }  // namespace
+
+void change_name(Method& method, MethodName name) {
+  method.name = name;
+  if (keeps_simplex(name)) return;
+  method.initial_simplex.clear();
+  if (method.start == Start::previous) method.start.reset();
+}
 
 Settings resolve_settings(const Method& method, const Scene& scene) {
   Settings s;

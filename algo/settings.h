@@ -71,6 +71,9 @@ struct Method {
   std::vector<SimplexPoint> initial_simplex;   ///< at most D + 1
 };
 
+/// Another algorithm with the same settings; a warm start is left behind where the algorithm keeps no simplex.
+void change_name(Method& method, MethodName name);
+
 /// Every setting, defaults filled in.
 struct Settings {
   MethodName name = MethodName::gjk;

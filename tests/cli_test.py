@@ -81,6 +81,9 @@ class Program(unittest.TestCase):
         self.assertEqual((other.returncode, other.stdout), (2, ""))
         self.assertIn("--start-from", other.stderr)
         self.assertEqual(run("dump", "box-box-apart", "--start", "given").returncode, 2)
+        # Another algorithm leaves the warm start behind; asked for by name, it is refused.
+        self.assertEqual(run("dump", "warm-start", "--method", "sat").returncode, 0)
+        self.assertEqual(run("dump", "warm-start", "--method", "sat", "--start", "previous").returncode, 2)
         still, moved = (json.loads(run("dump", "sim-slope-slides", *flags).stdout)["result"]["support_calls"] for flags in ((), ("--start", "previous")))
         self.assertLess(moved, still)
 

@@ -71,7 +71,9 @@ void MethodFlags::add_to(CLI::App& app) {
 }
 
 void MethodFlags::override_in(Method& method) const {
-  override_name(method.name, name_, method_names);
+  std::optional<MethodName> name;
+  override_name(name, name_, method_names);
+  if (name) change_name(method, *name);
   override_name(method.closest_point, closest_point_, closest_point_names);
   override_name(method.penetration, penetration_, penetration_names);
   override_name(method.scalar, scalar_, scalar_names);

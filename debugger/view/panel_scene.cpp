@@ -170,7 +170,7 @@ std::vector<int> possible_methods(const SceneFile& file) {
   std::vector<int> out;
   for (std::size_t i = 0; i < method_names.size(); ++i) {
     Method m = file.method;
-    m.name = static_cast<MethodName>(i);
+    change_name(m, static_cast<MethodName>(i));
     try {
       if (resolve_settings(m, file.scene).name == *m.name) out.push_back(static_cast<int>(i));
     } catch (const Error&) {
@@ -205,7 +205,7 @@ bool method(App& app, SceneFile& next) {
     next.scene.query = static_cast<Query>(query), edited = true;
     if (query != 0 && now.name == MethodName::gjk_boolean) next.method.name = MethodName::gjk;
   }
-  if (choice(theme, "method", name, method_names, possible_methods(next))) next.method.name = static_cast<MethodName>(name), edited = true;
+  if (choice(theme, "method", name, method_names, possible_methods(next))) change_name(next.method, static_cast<MethodName>(name)), edited = true;
   int part = static_cast<int>(now.closest_point);
   const bool distances = now.name != MethodName::gjk_boolean && now.name != MethodName::closed_form;
   if (distances && choice(theme, "closest point", part, closest_point_names, {0, 1, 2})) next.method.closest_point = static_cast<ClosestPoint>(part), edited = true;
@@ -268,7 +268,7 @@ void comparison(App& app) {
       if (part != now.closest_point) offer(closest_point_names[static_cast<std::size_t>(part)].data(), [&](Method& m) { m.closest_point = part, m.name = MethodName::gjk; });
     for (const MethodName name : {MethodName::gjk, MethodName::gjk_accelerated, MethodName::gjk_boolean, MethodName::mpr, MethodName::sat, MethodName::closed_form}) {
       if (name == now.name || std::find(possible.begin(), possible.end(), static_cast<int>(name)) == possible.end()) continue;
-      offer(method_names[static_cast<std::size_t>(name)].data(), [&](Method& m) { m.name = name; });
+      offer(method_names[static_cast<std::size_t>(name)].data(), [&](Method& m) { change_name(m, name); });
     }
     if (ImGui::Selectable("another recording ...")) app.ask(App::Asking::compare);
     ImGui::EndCombo();

@@ -140,17 +140,19 @@ TEST(Trace, EveryPhaseEndsExactlyOnce) {
     bool gjk = false, epa = false, other = false;
     int next_vertex = 0, last_face = -1;
     for (const Event& event : recording.events) {
+      if (const auto given = given_vertex(event)) {
+        EXPECT_EQ(given->vertex, next_vertex++);
+      }
       if (std::holds_alternative<recorded::GjkBegan>(event)) {
         EXPECT_FALSE(gjk || epa || other);
         gjk = true;
-      } else if (std::holds_alternative<recorded::MprBegan>(event) || std::holds_alternative<recorded::SatBegan>(event)) {
+      } else if (std::holds_alternative<recorded::MprBegan>(event) || std::holds_alternative<recorded::SatBegan>(event) || std::holds_alternative<recorded::ClosedFormBegan>(event)) {
         EXPECT_FALSE(gjk || epa || other);
         other = true;
-      } else if (std::holds_alternative<recorded::MprEnded>(event) || std::holds_alternative<recorded::SatEnded>(event)) {
+      } else if (std::holds_alternative<recorded::MprEnded>(event) || std::holds_alternative<recorded::SatEnded>(event) || std::holds_alternative<recorded::ClosedFormEnded>(event)) {
         EXPECT_TRUE(other);
         other = false;
       } else if (const auto* query = std::get_if<recorded::SupportQueried>(&event)) {
-        EXPECT_EQ(query->vertex, next_vertex++);
         EXPECT_EQ(gjk, query->phase == Phase::gjk);
         EXPECT_EQ(other, query->phase == Phase::mpr || query->phase == Phase::sat);
         if (query->phase == Phase::seed || query->phase == Phase::epa) epa = true;

@@ -26,7 +26,7 @@ TEST(Check, OurOwnRecordingsOfTheGalleryAreClean) {
           SceneFile scene = read_scene(gallery.file(name));
           scene.method.scalar = scalar;
           if (boolean && scene.scene.motion) continue;
-          if (boolean) scene.method.name = MethodName::gjk_boolean, scene.scene.query = Query::intersect;
+          if (boolean) change_name(scene.method, MethodName::gjk_boolean), scene.scene.query = Query::intersect;
           EXPECT_EQ(text(check(record(scene))), "") << name << (boolean ? " boolean" : "") << (scalar == Scalar::double_precision ? "" : " float");
         }
 }
