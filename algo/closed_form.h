@@ -47,8 +47,7 @@ std::optional<CoreSegment<D>> core_segment(const Convex<D, S>& body) {
     return CoreSegment<D>{placed, along, body.radius(), placed.norm() + along.norm(), placed == -along / 2};
   };
   if constexpr (D == 1) {
-    int hint = 0;
-    return between(body.support(-Vector<1, S>::Ones(), hint), body.support(Vector<1, S>::Ones(), hint));
+    return between(body.support(-Vector<1, S>::Ones()), body.support(Vector<1, S>::Ones()));
   }
   if (std::holds_alternative<PointCore<D, S>>(body.core())) return between(Vector<D, S>::Zero(), Vector<D, S>::Zero());
   if (const auto* segment = std::get_if<SegmentCore<D, S>>(&body.core())) {

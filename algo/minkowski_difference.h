@@ -69,7 +69,7 @@ RelativePose<D, S> relative_pose(const PlacedAxes<D>& pose_a, const Vector<D, do
   return relative;
 }
 
-/// A and B are anything with support(direction, hint), extent(), radius() and polytope(), Convex among them.
+/// A and B are anything with support(direction), extent(), radius() and polytope(), Convex among them.
 template <int D_, class S_, class A, class B = A>
 class MinkowskiDifference {
  public:
@@ -89,8 +89,8 @@ class MinkowskiDifference {
   /// The point of A - B farthest along d (body 0's frame, any length). Counts.
   Point support(const V& d) {
     Point point;
-    point.a = a_.support(d, hint_a_);
-    point.b.noalias() = rotation_ * b_.support(-(inverse_ * d), hint_b_);
+    point.a = a_.support(d);
+    point.b.noalias() = rotation_ * b_.support(-(inverse_ * d));
     point.b += position_;
     point.w = point.a - point.b;
     point.vertex = numbers_++;
@@ -135,7 +135,6 @@ class MinkowskiDifference {
   Matrix<D, S> rotation_, inverse_;
   V position_;
   S rounding_floor_;
-  int hint_a_ = 0, hint_b_ = 0;
   int calls_ = 0, numbers_ = 0;
 };
 

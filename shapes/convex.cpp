@@ -76,12 +76,9 @@ void Convex<D, S>::set(const Geometry& g, double scale) {
     const ConvexHull hull = convex_hull(g.points, D);
     for (const int i : hull.vertices) points.push_back(g.points[i]);
     set_vertices(std::move(points), scale);
-    if (D == 3 && hull.rank == 3 && hull.vertices.size() >= hill_climbing_from && !hull.neighbours.empty()) {
-      HullCore<D, S> climbing{std::move(std::get<VerticesCore<D, S>>(core_).vertices), hull.first_neighbour, hull.neighbours, {}};
-      climbing.line_up();
-      climbing.find_starts();
-      core_ = std::move(climbing);
-    }
+    if constexpr (D == 3)
+      if (hull.rank == 3 && hull.vertices.size() >= table_from && !hull.neighbours.empty())
+        core_ = HullCore<S>(std::get<VerticesCore<D, S>>(core_).vertices, hull);
   } else if constexpr (std::is_same_v<Geometry, Sum>) {
     const auto first = std::make_shared<const Convex>(*g.first, scale), second = std::make_shared<const Convex>(*g.second, scale);
     core_ = SumCore<D, S>{first, second};

@@ -10,6 +10,7 @@
 #include <utility>
 #include <variant>
 
+#include "shapes/hull_core.h"
 #include "shapes/shape.h"
 #include "shapes/support_mappings.h"
 
@@ -18,12 +19,12 @@ namespace gjkdbg {
 template <int D, class S>
 struct CoreVariant {
   using type = std::variant<PointCore<D, S>, SegmentCore<D, S>, BoxCore<D, S>, EllipsoidCore<D, S>, VerticesCore<D, S>,
-                            HullCore<D, S>, SumCore<D, S>>;
+                            SumCore<D, S>>;
 };
 template <class S>
 struct CoreVariant<3, S> {
   using type = std::variant<PointCore<3, S>, SegmentCore<3, S>, BoxCore<3, S>, EllipsoidCore<3, S>, VerticesCore<3, S>,
-                            HullCore<3, S>, SumCore<3, S>, CylinderCore<S>, ConeCore<S>>;
+                            HullCore<S>, SumCore<3, S>, CylinderCore<S>, ConeCore<S>>;
 };
 
 template <int D, class S>
@@ -36,8 +37,8 @@ class Convex {
   explicit Convex(const Shape& shape, double scale = 1);
 
   /// A point of the core farthest along `direction`; both relative to `reference()`, axes of the body.
-  Vector<D, S> support(const Vector<D, S>& direction, int& hint) const {
-    return std::visit([&](const auto& core) { return core.support(direction, hint); }, core_);
+  Vector<D, S> support(const Vector<D, S>& direction) const {
+    return std::visit([&](const auto& core) { return core.support(direction); }, core_);
   }
 
   /// A point inside the core (of a flat one, in its plane), relative to `reference()`.
@@ -68,13 +69,12 @@ Vector<D, S> SumCore<D, S>::center() const {
 }
 
 template <int D, class S>
-Vector<D, S> SumCore<D, S>::support(const Vector<D, S>& d, int& hint) const {
-  int second_hint = 0;
-  return first->support(d, hint) + second->support(d, second_hint);
+Vector<D, S> SumCore<D, S>::support(const Vector<D, S>& d) const {
+  return first->support(d) + second->support(d);
 }
 
-/// From how many vertices hill climbing beats a scan; measured with tests/bench/support_bench.
-inline constexpr int hill_climbing_from = 32;
+/// From how many vertices the table of directions beats a scan; measured with tests/bench/support_bench.
+inline constexpr int table_from = 14;
 
 /// Largest power of two not above 1 / (the shape's size): brings any scene to lengths near 1.
 double size_of(const Shape& shape);

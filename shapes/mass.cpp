@@ -141,7 +141,6 @@ template <int D>
 MassProperties sampled(const Shape& shape) {
   const Convex<D, double> convex(shape);
   std::vector<AnyVector> points;
-  int hint = 0;
   const int rings = D == 3 ? 18 : 2;
   for (int i = 1; i < rings; ++i)
     for (int k = 0; k < 72; ++k) {
@@ -150,7 +149,7 @@ MassProperties sampled(const Shape& shape) {
       d[0] = std::cos(t) * (D == 3 ? std::sin(u) : 1);
       if constexpr (D > 1) d[1] = std::sin(t) * (D == 3 ? std::sin(u) : 1);
       if constexpr (D > 2) d[2] = std::cos(u);
-      points.push_back(convex.reference() + convex.support(d, hint) + convex.radius() * d.normalized());
+      points.push_back(convex.reference() + convex.support(d) + convex.radius() * d.normalized());
     }
   return of_points(points, D);
 }

@@ -21,8 +21,7 @@ struct WorldSupport::Of final : WorldSupport::Any {
   AnyVector support(const AnyVector& direction, bool whole) const override {
     Vector<D, double> d = direction;
     if (!d.allFinite()) d.setZero();
-    int hint = 0;
-    Vector<D, double> p = rotation * (convex.reference() + convex.support(rotation.transpose() * d, hint)) + position;
+    Vector<D, double> p = rotation * (convex.reference() + convex.support(rotation.transpose() * d)) + position;
     if (whole && convex.radius() > 0 && !d.isZero(0)) p += convex.radius() * d.stableNormalized();
     return p;
   }

@@ -197,7 +197,7 @@ class CcdPair final : public PeerPair {
     static void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* out) {
       const Placed& self = *static_cast<const Placed*>(object);
       const Eigen::Vector3d d(direction->v[0], direction->v[1], direction->v[2]);
-      const Eigen::Vector3d p = self.rotation * self.convex.support(self.rotation.transpose() * d, self.hint) + self.position + self.convex.radius() * d.normalized();
+      const Eigen::Vector3d p = self.rotation * self.convex.support(self.rotation.transpose() * d) + self.position + self.convex.radius() * d.normalized();
       ccdVec3Set(out, p[0], p[1], p[2]);
     }
     static void center(const void* object, ccd_vec3_t* out) {
@@ -208,7 +208,6 @@ class CcdPair final : public PeerPair {
     Convex<3, double> convex;
     Eigen::Matrix3d rotation;
     Eigen::Vector3d position;
-    mutable int hint = 0;
   };
 
   Placed bodies_[2];

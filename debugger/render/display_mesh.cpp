@@ -49,10 +49,9 @@ template <int D>
 Points sampled(const Shape& shape, bool with_radius) {
   const Convex<D, double> convex(shape);
   Points out;
-  int hint = 0;
   for (const AnyVector& any : directions(D)) {
     const Vector<D, double> d = any;
-    Vector<D, double> p = convex.reference() + convex.support(d, hint);
+    Vector<D, double> p = convex.reference() + convex.support(d);
     if (with_radius) p += convex.radius() * d.normalized();
     out.push_back(p);
   }

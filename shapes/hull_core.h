@@ -1,0 +1,126 @@
+// The support mapping of a convex polytope with many vertices: a table of directions.
+//
+// A cube around the origin is cut into cells, about twice as many as the hull has vertices, and every cell keeps the vertices
+// that are highest along one of its directions: about four, one after the other in memory. A query looks at those
+// and nothing else, however many vertices there are.
+//
+//       +---+---+---+        Whether vertex v can be left out of a cell with corners c1 … c4: if a neighbour u has
+//       |   |   | d |        (u - v) . ck > 0 for all k, it is higher than v along every direction of the cell, for these are
+//       +---+---+---+        sums of the corners with positive weights. Not every vertex that is never highest is found
+//       |   |   |   |        that way; those are looked at in vain.
+//       +---+---+---+
+//
+// The vertices that are highest somewhere in a cell hang together along edges, as a cell is connected and the directions of
+// two vertices meet across an edge: the search for them spreads from one of them. Flat and long hulls have their directions in a few
+// cells; so lengths are measured by the hull's box, in which v . d = sum (v_i / e_i) (e_i d_i).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "shapes/convex_hull.h"
+#include "shapes/vector.h"
+
+namespace gjkdbg {
+
+template <class S>
+class HullCore {
+  using V = Vector<3, S>;
+
+ public:
+  /// The vertices of a solid hull, as in hull.vertices, and its adjacency.
+  HullCore(const std::vector<V>& vertices, const ConvexHull& hull) {
+    V low = vertices.front(), high = low;
+    for (const V& v : vertices) center_ += v, low = low.cwiseMin(v), high = high.cwiseMax(v);
+    center_ /= static_cast<S>(vertices.size());
+    box_ = high - low;
+    across_ = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(vertices.size()) / 3)));
+    const int cells = 6 * across_ * across_;
+    std::vector<int> spread{0};
+    std::vector<int> met(vertices.size(), -1);
+    for (int cell = 0; cell < cells; ++cell) {
+      spread.assign(1, climb(vertices, hull, spread.front(), direction(cell, S(0.5), S(0.5))));
+      met[static_cast<std::size_t>(spread.front())] = cell;
+      const std::array<V, 4> corners{direction(cell, 0, 0), direction(cell, 0, 1), direction(cell, 1, 0), direction(cell, 1, 1)};
+      first_.push_back(static_cast<int>(highest_.size()));
+      for (std::size_t i = 0; i < spread.size(); ++i) {
+        highest_.push_back(vertices[static_cast<std::size_t>(spread[i])]);
+        for (const int other : around(hull, spread[i]))
+          if (std::exchange(met[static_cast<std::size_t>(other)], cell) != cell && !overtopped(vertices, hull, other, corners)) spread.push_back(other);
+      }
+    }
+    first_.push_back(static_cast<int>(highest_.size()));
+  }
+
+  V center() const { return center_; }
+
+  V support(const V& d) const {
+    const int* range = first_.data() + cell_of(box_.cwiseProduct(d));
+    const V* best = highest_.data() + range[0];
+    S best_dot = best->dot(d);
+    for (const V *v = best + 1, *end = highest_.data() + range[1]; v < end; ++v) {
+      const S dot = v->dot(d);
+      if (dot > best_dot) best = v, best_dot = dot;
+    }
+    return *best;
+  }
+
+ private:
+  static std::span<const int> around(const ConvexHull& hull, int vertex) {
+    const auto i = static_cast<std::size_t>(vertex);
+    return std::span(hull.neighbours).subspan(static_cast<std::size_t>(hull.first_neighbour[i]), static_cast<std::size_t>(hull.first_neighbour[i + 1] - hull.first_neighbour[i]));
+  }
+
+  /// Where d leaves the cube: its largest component says through which side, the others in which of that side's cells.
+  int cell_of(const V& d) const {
+    const S x = std::abs(d[0]), y = std::abs(d[1]), z = std::abs(d[2]);
+    const int axis = y > x ? (z > y ? 2 : 1) : (z > x ? 2 : 0);
+    constexpr int after[3] = {1, 2, 0};
+    const S most = std::max(std::max(x, y), z), half = static_cast<S>(across_) / 2, scale = most > 0 ? half / most : S(0);
+    const int u = place(d[after[axis]] * scale + half), v = place(d[after[after[axis]]] * scale + half);
+    return ((2 * axis + (d[axis] < 0)) * across_ + u) * across_ + v;
+  }
+  int place(S x) const { return x < static_cast<S>(across_) ? static_cast<int>(x) : across_ - 1; }  // infinite or NaN: the last
+
+  /// The direction through a place of a cell, (0.5, 0.5) its middle; in the body's lengths, not the box's.
+  V direction(int cell, S u, S v) const {
+    const int side = cell / (across_ * across_), axis = side / 2;
+    V d;
+    d[axis] = side % 2 ? S(-1) : S(1);
+    d[(axis + 1) % 3] = 2 * (static_cast<S>(cell / across_ % across_) + u) / static_cast<S>(across_) - 1;
+    d[(axis + 2) % 3] = 2 * (static_cast<S>(cell % across_) + v) / static_cast<S>(across_) - 1;
+    return d.cwiseQuotient(box_);
+  }
+
+  /// On a convex polytope a vertex with no higher neighbour is a highest one.
+  static int climb(const std::vector<V>& vertices, const ConvexHull& hull, int best, const V& d) {
+    for (int from = -1; from != best;) {
+      from = best;
+      for (const int other : around(hull, from))
+        if ((vertices[static_cast<std::size_t>(other)] - vertices[static_cast<std::size_t>(best)]).dot(d) > 0) best = other;
+    }
+    return best;
+  }
+
+  /// In the box's lengths all vertices lie within 1 and the corners within sqrt(3): what is higher by less than `rounding` may be so by mistake.
+  static bool overtopped(const std::vector<V>& vertices, const ConvexHull& hull, int vertex, const std::array<V, 4>& corners) {
+    constexpr S rounding = 64 * std::numeric_limits<S>::epsilon();
+    for (const int other : around(hull, vertex)) {
+      const V up = vertices[static_cast<std::size_t>(other)] - vertices[static_cast<std::size_t>(vertex)];
+      if (std::all_of(corners.begin(), corners.end(), [&](const V& c) { return up.dot(c) > rounding; })) return true;
+    }
+    return false;
+  }
+
+  V center_ = V::Zero(), box_;
+  int across_;
+  std::vector<V> highest_;  ///< of cell i: highest_[first_[i] .. first_[i + 1])
+  std::vector<int> first_;
+};
+
+}  // namespace gjkdbg
