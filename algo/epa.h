@@ -124,6 +124,11 @@ class Epa {
 
   bool seed(const Simplex<D, S>& simplex) {
     std::array<int, D + 1> chosen{};
+    if (plainly_spans(simplex)) {
+      for (int i = 0; i <= D; ++i) chosen[i] = polytope_.add_point(simplex.points[i]);
+      polytope_.start(chosen);
+      return true;
+    }
     chosen[0] = polytope_.add_point(simplex.points[0]);
     for (int rank = 0; rank < D; ++rank) {
       const int point = next_point(simplex, chosen, rank);
@@ -132,6 +137,18 @@ class Epa {
     }
     polytope_.start(chosen);
     return true;
+  }
+
+  /// A tetrahedron that plain arithmetic shows not to be flat: no edge short, no corner sharp, the last point well off the others' plane.
+  bool plainly_spans(const Simplex<D, S>& simplex) const {
+    if constexpr (D == 3) {
+      if (simplex.size != 4) return false;
+      const V x = simplex.points[1].w - simplex.points[0].w, y = simplex.points[2].w - simplex.points[0].w, z = simplex.points[3].w - simplex.points[0].w;
+      const V n = x.cross(y);
+      const S xx = x.dot(x), yy = y.dot(y), nn = n.dot(n), off = n.dot(z), far = 64 * floor_;
+      return std::min(xx, yy) > far * far && nn > S(1e-6) * xx * yy && off * off > far * far * nn;
+    }
+    return false;
   }
 
   /// A point farthest off the hull of the first `rank` + 1 chosen ones: of the simplex, else of new supports.

@@ -31,6 +31,7 @@ struct PolytopeFace {
   Vector<D, S> normal;             ///< unit, outwards; zero for a face without area
   S distance;                      ///< of the plane from the origin, negative: the origin is outside
   bool removed = false;
+  int asked = 0;                   ///< when a new point last asked whether it sees this face, and what it heard: see Polytope::find_seen
 };
 
 /// What one growth did; faces as numbers, the horizon as indices into points().
@@ -46,7 +47,7 @@ class Polytope {
   using Point = SupportPoint<D, S>;
   using Face = PolytopeFace<D, S>;
 
-  void clear() { points_.clear(), faces_.clear(), heap_.clear(), far_ = std::numeric_limits<S>::infinity(), reach_ = 0; }
+  void clear() { points_.clear(), faces_.clear(), heap_.clear(), far_ = std::numeric_limits<S>::infinity(), reach_ = 0, growths_ = 0; }
   int add_point(const Point& point) {
     points_.push_back(point);
     reach_ = std::max(reach_, point.w.cwiseAbs().maxCoeff());
@@ -101,6 +102,7 @@ class Polytope {
   }
   int add_face(const std::array<int, D>& vertices, const std::array<int, D>& neighbours);
   void set_plane(Face& face) const;
+  void set_plane(Face& face, const V& edge, const V& next, S squared) const;
   bool sees(int p, const Face& face) const;
   void find_seen(int p, int seen);
   bool order_horizon();
@@ -117,11 +119,9 @@ class Polytope {
     int outside;              ///< the face that stays
   };
   std::vector<Ridge> horizon_;
-  struct Visit {
-    int face, edge, left;  ///< the next edge to look across, and how many are left
-  };
-  std::vector<Visit> visits_;
-  std::vector<char> marked_;
+  std::vector<Ridge> loop_;    ///< 3D: the horizon in order
+  std::vector<int> leaves_;    ///< the ridge that begins at a point
+  int growths_ = 0;
 };
 
 /// In space the face's own plane decides first. A normal n = e x f is off by 9 u |e| |f| at most, so the unit normal by 9 u over the sine between
@@ -179,6 +179,16 @@ void Polytope<D, S>::set_plane(Face& face) const {
   }
 }
 
+/// 3D: with edges from the face's last vertex to its others at hand; `squared` is |edge|^2 |next|^2.
+template <int D, class S>
+void Polytope<D, S>::set_plane(Face& face, const V& edge, const V& next, S squared) const {
+  const V n = edge.cross(next);
+  const S area = n.dot(n);
+  if (!(area > thin * thin * squared)) return set_plane(face);
+  face.normal = n / std::sqrt(area);
+  face.distance = face.normal.dot(at(face.vertices[2]));
+}
+
 template <int D, class S>
 int Polytope<D, S>::add_face(const std::array<int, D>& vertices, const std::array<int, D>& neighbours) {
   const int number = static_cast<int>(faces_.size());
@@ -209,36 +219,25 @@ void Polytope<D, S>::start(std::array<int, D + 1> s) {
   }
 }
 
-/// Marks the connected faces that p sees, and collects the ridges around them: depth first, from every face on in the order of its edges, so that
-/// the ridges around a disc come in their order.
+/// The connected faces that p sees, and the ridges around them. Every face is asked once: `asked` becomes 2 k + 1 (seen) or 2 k (not) in growth k.
 template <int D, class S>
 void Polytope<D, S>::find_seen(int p, int seen) {
+  const int not_seen = 2 * ++growths_;
   growth_.removed.assign(1, seen);
   horizon_.clear();
-  marked_.resize(faces_.size(), 0);
-  marked_[seen] = 1;
+  faces_[seen].asked = not_seen + 1;
   if constexpr (D == 1) return;
-  visits_.assign(1, {seen, 0, D});
-  while (!visits_.empty()) {
-    Visit& visit = visits_.back();
-    if (visit.left == 0) {
-      visits_.pop_back();
-      continue;
+  for (std::size_t k = 0; k < growth_.removed.size(); ++k) {
+    const Face& face = faces_[growth_.removed[k]];
+    for (int i = 0; i < D; ++i) {
+      const int other = face.neighbours[i];
+      Face& beside = faces_[other];
+      if (beside.asked < not_seen) {
+        beside.asked = not_seen + sees(p, beside);
+        if (beside.asked > not_seen) growth_.removed.push_back(other);
+      }
+      if (beside.asked == not_seen) horizon_.push_back({{face.vertices[i], face.vertices[i + 1 == D ? 0 : i + 1]}, other});
     }
-    const auto& v = faces_[visit.face].vertices;
-    const int i = visit.edge, to = i + 1 == D ? 0 : i + 1, other = faces_[visit.face].neighbours[i];
-    visit.edge = to, --visit.left;
-    if (marked_[other]) continue;
-    if (!sees(p, faces_[other])) {
-      horizon_.push_back({{v[i], v[to]}, other});
-      continue;
-    }
-    marked_[other] = 1;
-    growth_.removed.push_back(other);
-    // Its edge that was crossed begins where this one ends (2D: the crossing is a point); the walk goes on with the next.
-    const auto& next = faces_[other].vertices;
-    const int crossed = D == 3 ? (next[1] == v[to]) + 2 * (next[D - 1] == v[to]) : 1 - i;
-    visits_.push_back({other, crossed + 1 == D ? 0 : crossed + 1, D - 1});
   }
 }
 
@@ -253,23 +252,20 @@ bool Polytope<D, S>::order_horizon() {
     if (!starts(horizon_[0])) std::swap(horizon_[0], horizon_[1]);
     return true;
   }
-  if (horizon_.size() < 3) return false;
-  for (std::size_t i = 0; i + 1 < horizon_.size(); ++i) {
-    const int to = horizon_[i].edge[1];
-    if (horizon_[i + 1].edge[0] == to) continue;
-    const auto next = std::find_if(horizon_.begin() + i + 1, horizon_.end(), [&](const Ridge& r) { return r.edge[0] == to; });
-    if (next == horizon_.end()) return false;
-    std::swap(horizon_[i + 1], *next);
-  }
-  if (horizon_.back().edge[1] != horizon_.front().edge[0]) return false;
-  std::vector<std::array<int, 2>>& edges = growth_.horizon;
-  edges.clear();
-  for (const Ridge& r : horizon_) {
-    for (const auto& e : edges)
-      if (e[0] == r.edge[0]) return false;  // the loop touches itself
-    edges.push_back(r.edge);
-  }
-  return true;
+  const std::size_t count = horizon_.size();
+  if (count < 3) return false;
+  leaves_.resize(points_.size());
+  for (std::size_t i = 0; i < count; ++i) leaves_[horizon_[i].edge[0]] = static_cast<int>(i);
+  // A vertex with two ridges leaving it has one of them left out of the round trip, which then is too short; one with none sends it astray, to a
+  // ridge of another growth.
+  loop_.resize(count);
+  std::size_t at = 0, length = 0;
+  do {
+    const Ridge& ridge = loop_[length++] = horizon_[at];
+    at = static_cast<std::size_t>(leaves_[ridge.edge[1]]);
+    if (at >= count || horizon_[at].edge[0] != ridge.edge[1]) return false;
+  } while (at != 0 && length < count);
+  return at == 0 && length == count;
 }
 
 template <int D, class S>
@@ -287,12 +283,23 @@ void Polytope<D, S>::close(int p) {
     faces_[start.outside].neighbours[1] = first;
     faces_[end.outside].neighbours[0] = first + 1;
   } else {
+    growth_.horizon.resize(loop_.size()), growth_.added.resize(loop_.size());
+    faces_.resize(faces_.size() + loop_.size());
+    V edge = at(loop_[0].edge[0]) - at(p);
+    S squared = edge.dot(edge);
     for (int k = 0; k < count; ++k) {
-      const Ridge& r = horizon_[k];
-      const int after = first + (k + 1) % count, before = first + (k + count - 1) % count;
-      growth_.added.push_back(add_face({r.edge[0], r.edge[1], p}, {r.outside, after, before}));
+      const Ridge& r = loop_[k];
+      const V next = at(r.edge[1]) - at(p);
+      const S next_squared = next.dot(next);
+      const int number = first + k, after = k + 1 == count ? first : number + 1, before = k == 0 ? first + count - 1 : number - 1;
+      Face& face = faces_[number];
+      face.vertices = {r.edge[0], r.edge[1], p}, face.neighbours = {r.outside, after, before};
+      set_plane(face, edge, next, squared * next_squared);
+      if (face.distance <= far_) push(number);
+      growth_.horizon[k] = r.edge, growth_.added[k] = number;
       auto& outside = faces_[r.outside];  // has the edge the other way round
-      outside.neighbours[(outside.vertices[1] == r.edge[1]) + 2 * (outside.vertices[2] == r.edge[1])] = first + k;
+      outside.neighbours[(outside.vertices[1] == r.edge[1]) + 2 * (outside.vertices[2] == r.edge[1])] = number;
+      edge = next, squared = next_squared;
     }
   }
 }
@@ -300,9 +307,7 @@ void Polytope<D, S>::close(int p) {
 template <int D, class S>
 bool Polytope<D, S>::grow(int p, int seen) {
   find_seen(p, seen);
-  const bool closes = order_horizon();
-  for (const int number : growth_.removed) marked_[number] = 0;
-  if (!closes) return false;
+  if (!order_horizon()) return false;
   for (const int number : growth_.removed) faces_[number].removed = true;
   close(p);
   return true;
