@@ -125,11 +125,11 @@ class Epa {
   bool seed(const Simplex<D, S>& simplex) {
     std::array<int, D + 1> chosen{};
     if (plainly_spans(simplex)) {
-      for (int i = 0; i <= D; ++i) chosen[i] = polytope_.add_point(simplex.points[i]);
+      for (int i = 0; i <= D; ++i) chosen[i] = polytope_.add_point(simplex[i]);
       polytope_.start(chosen);
       return true;
     }
-    chosen[0] = polytope_.add_point(simplex.points[0]);
+    chosen[0] = polytope_.add_point(simplex[0]);
     for (int rank = 0; rank < D; ++rank) {
       const int point = next_point(simplex, chosen, rank);
       if (point < 0) return false;
@@ -143,7 +143,7 @@ class Epa {
   bool plainly_spans(const Simplex<D, S>& simplex) const {
     if constexpr (D == 3) {
       if (simplex.size != 4) return false;
-      const V x = simplex.points[1].w - simplex.points[0].w, y = simplex.points[2].w - simplex.points[0].w, z = simplex.points[3].w - simplex.points[0].w;
+      const V x = simplex[1].w - simplex[0].w, y = simplex[2].w - simplex[0].w, z = simplex[3].w - simplex[0].w;
       const V n = x.cross(y);
       const S xx = x.dot(x), yy = y.dot(y), nn = n.dot(n), off = n.dot(z), far = 64 * floor_;
       return std::min(xx, yy) > far * far && nn > S(1e-6) * xx * yy && off * off > far * far * nn;
@@ -156,8 +156,8 @@ class Epa {
     S best = 64 * floor_;
     int from = -1;
     for (int i = 1; i < simplex.size; ++i)
-      if (const S off = off_hull(simplex.points[i].w, chosen, rank); off > best) best = off, from = i;
-    if (from >= 0) return polytope_.add_point(simplex.points[from]);
+      if (const S off = off_hull(simplex[i].w, chosen, rank); off > best) best = off, from = i;
+    if (from >= 0) return polytope_.add_point(simplex[from]);
     best = floor_, best_height_ = std::numeric_limits<S>::infinity();
     Point farthest;
     flat_normal_ = across(chosen, rank);

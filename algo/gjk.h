@@ -8,7 +8,8 @@
 // Deviations: |v| must fall in every step; where it does not, the simplex is judged again in twice the precision and,
 // if that does not help, the loop ends as `stalled` with honest bounds. Bounds include the rounding floor.
 // Directions may carry Nesterov's momentum (Montaut et al., section IV): fewer steps where curvature is small.
-// The sub-algorithm is a policy: ClosestFeature<D, S> closest(const V* w, int size).
+// The sub-algorithm is a policy: ClosestFeature<D, S> closest(const V* w, int size), or closest(const V* w, const int* place, int size) with
+// the vertices w[place[0]], w[place[1]], … and places for indices.
 #pragma once
 
 #include <limits>
@@ -145,17 +146,27 @@ class Gjk {
 
   /// Cuts the simplex down to the feature nearest the origin; false when that is no nearer than before (NaN included).
   bool reduce() {
+    const auto& simplex = result_.simplex;
+    if constexpr (requires { SubAlgorithm::closest(simplex.w.data(), simplex.place.data(), simplex.size); })
+      return accept(SubAlgorithm::closest(simplex.w.data(), simplex.place.data(), simplex.size));
+    else
+      return accept(of_list([](const V* w, int size) { return SubAlgorithm::closest(w, size); }));
+  }
+
+  /// For a sub-algorithm that wants the vertices one after the other.
+  template <class Closest>
+  Feature of_list(Closest closest) const {
+    const auto& simplex = result_.simplex;
     std::array<V, D + 1> w;
-    for (int i = 0; i < result_.simplex.size; ++i) w[i] = result_.simplex.points[i].w;
-    const Feature feature = SubAlgorithm::closest(w.data(), result_.simplex.size);
-    return accept(feature);
+    for (int i = 0; i < simplex.size; ++i) w[i] = simplex[i].w;
+    Feature feature = closest(w.data(), simplex.size);
+    for (int i = 0; i < feature.count; ++i) feature.index[i] = simplex.place[feature.index[i]];
+    return feature;
   }
 
   /// The second opinion, in twice the precision.
   bool reduce_again() {
-    std::array<V, D + 1> w;
-    for (int i = 0; i < result_.simplex.size; ++i) w[i] = result_.simplex.points[i].w;
-    return accept(WideClosestPoint<D, S>::of_boundary(w.data(), result_.simplex.size));
+    return accept(of_list([](const V* w, int size) { return WideClosestPoint<D, S>::of_boundary(w, size); }));
   }
 
   /// |v| must fall. Where the plane still turns but |v| falls by less than it rounds (a nearly flat part of A - B met at
@@ -240,12 +251,12 @@ class Gjk {
     const auto& simplex = result_.simplex;
     Numbers numbers;
     numbers.size = simplex.size;
-    const auto newer = [&](int i, int j) { return simplex.points[i].vertex > simplex.points[j].vertex; };
+    const auto newer = [&](int i, int j) { return simplex[i].vertex > simplex[j].vertex; };
     for (int i = 0; i < simplex.size; ++i) {
       order_[i] = i;
       for (int k = i; k > 0 && newer(order_[k], order_[k - 1]); --k) std::swap(order_[k], order_[k - 1]);
     }
-    for (int i = 0; i < simplex.size; ++i) numbers.vertex[i] = simplex.points[order_[i]].vertex;
+    for (int i = 0; i < simplex.size; ++i) numbers.vertex[i] = simplex[order_[i]].vertex;
     return numbers;
   }
 

@@ -115,6 +115,10 @@ class MinkowskiDifference {
   V center() const { return a_.center() - (rotation_ * b_.center() + position_); }
   const Matrix<D, S>& rotation() const { return rotation_; }  ///< body 1's axes in body 0's
   int support_calls() const { return calls_; }
+  /// A height along a direction found without its point counts like a support.
+  void count_support() { ++calls_; }
+  const A& a() const { return a_; }
+  const B& b() const { return b_; }
   /// Sum of the radii around the cores: the bodies' difference is the cores' plus a ball of this radius.
   S radius() const { return static_cast<S>(a_.radius() + b_.radius()); }
   S radius_a() const { return static_cast<S>(a_.radius()); }

@@ -80,8 +80,8 @@ RayCastResult<Difference::D, typename Difference::S> ray_cast(Difference& differ
       simplex.add(p);
     }
     std::array<V, D + 1> y;
-    for (int i = 0; i < simplex.size; ++i) y[i] = simplex.points[i].w - x;
-    const auto feature = SignedVolumes<D, S>::closest(y.data(), simplex.size);
+    for (int i = 0; i < simplex.size; ++i) y[simplex.place[i]] = simplex[i].w - x;
+    const auto feature = SignedVolumes<D, S>::closest(y.data(), simplex.place.data(), simplex.size);
     simplex.reduce_to(feature);
     v = -feature.v;
     if (feature.enclosed) v.setZero();

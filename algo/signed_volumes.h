@@ -34,13 +34,18 @@ struct SignedVolumes {
   using V = Vector<D, S>;
   using Feature = ClosestFeature<D, S>;
 
-  /// `w`: `size` vertices, 1 <= size <= D + 1.
+  /// `size` vertices, 1 <= size <= D + 1: w[0], w[1], …
   static Feature closest(const V* w, int size) {
-    if (size == 1) return vertex(w, 0);
+    constexpr std::array<int, 4> place{0, 1, 2, 3};
+    return closest(w, place.data(), size);
+  }
+  /// w[place[0]], w[place[1]], … of D + 1 places; the feature's indices are places.
+  static Feature closest(const V* w, const int* place, int size) {
+    if (size == 1) return vertex(w, place[0]);
     if (size == D + 1) return full(w);
     if constexpr (D == 3)
-      if (size == 3) return triangle(w, 0, 1, 2);
-    return segment(w, 0, 1);
+      if (size == 3) return triangle(w, place[0], place[1], place[2]);
+    return segment(w, place[0], place[1]);
   }
 
  private:
@@ -91,10 +96,12 @@ struct SignedVolumes {
       f.v_squared = f.v.dot(f.v);
       return f;
     }
+    const bool beyond_i = !(weight_i > 0), beyond_j = !(weight_j > 0), beyond_k = !(weight_k > 0);
+    if (beyond_i + beyond_j + beyond_k == 1) return beyond_i ? segment(w, j, k) : beyond_j ? segment(w, k, i) : segment(w, i, j);
     Feature best;
-    if (!(weight_i > 0)) keep_nearer(best, segment(w, j, k));
-    if (!(weight_j > 0)) keep_nearer(best, segment(w, k, i));
-    if (!(weight_k > 0)) keep_nearer(best, segment(w, i, j));
+    if (beyond_i) keep_nearer(best, segment(w, j, k));
+    if (beyond_j) keep_nearer(best, segment(w, k, i));
+    if (beyond_k) keep_nearer(best, segment(w, i, j));
     return best;
   }
 
@@ -179,8 +186,8 @@ struct SignedVolumes {
     for (int i = 0; i < 4; ++i) m = std::max(m, w[i].cwiseAbs().maxCoeff());
     const S error = determinant_error(m), sum = value[0] + value[1] + value[2] + value[3];
     const int whole = sure_sign(sum, 5 * error, [&] { return orientation<S>(w[0], w[1], w[2], w[3]); });
-    Feature best;
-    bool inside = true;
+    int beyond = 0;
+    std::array<int, 4> faces;
     for (int i = 0; i < 4; ++i) {
       const int j = (i + 1) % 4, k = (i + 2) % 4, l = (i + 3) % 4;
       // det(j, k, l) in this order has the sign of value[i] for even i and the opposite one for odd i.
@@ -188,11 +195,14 @@ struct SignedVolumes {
         const int turned = determinant_sign_wide<S>(WideVector<S>(w[j]), WideVector<S>(w[k]), WideVector<S>(w[l]));
         return i % 2 == 0 ? turned : -turned;
       });
-      if (side == whole && whole != 0) continue;
-      inside = false;
-      keep_nearer(best, triangle(w, j, k, l));
+      if (side != whole || whole == 0) faces[beyond++] = i;
     }
-    return inside ? enclosed({std::abs(value[0]), std::abs(value[1]), std::abs(value[2]), std::abs(value[3])}) : best;
+    if (beyond == 0) return enclosed({std::abs(value[0]), std::abs(value[1]), std::abs(value[2]), std::abs(value[3])});
+    const auto face = [&](int i) { return triangle(w, (i + 1) % 4, (i + 2) % 4, (i + 3) % 4); };
+    if (beyond == 1) return face(faces[0]);
+    Feature best;
+    for (int k = 0; k < beyond; ++k) keep_nearer(best, face(faces[k]));
+    return best;
   }
 };
 

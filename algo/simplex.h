@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 #include "algo/minkowski_difference.h"
 
@@ -14,32 +15,42 @@ namespace gjkdbg {
 template <int D, class S>
 struct ClosestFeature {
   int count = 0;
-  std::array<int, D + 1> index{};
-  std::array<S, D + 1> weight{};
+  std::array<int, D + 1> index;   ///< the first `count`
+  std::array<S, D + 1> weight;    ///< the first `count`
   Vector<D, S> v = Vector<D, S>::Zero();
   S v_squared = 0;
   bool enclosed = false;
 };
 
+/// Its points stay where they were put; what changes is the list of places.
 template <int D, class S>
 struct Simplex {
   using Point = SupportPoint<D, S>;
   int size = 0;
-  std::array<Point, D + 1> points{};
-  std::array<S, D + 1> weights{};
+  std::array<int, D + 1> place;         ///< of the first `size` points
+  std::array<S, D + 1> weights;         ///< of the same
+  std::array<Point, D + 1> points;      ///< by place
+  std::array<Vector<D, S>, D + 1> w;    ///< by place: points[…].w, side by side
 
-  void add(const Point& point) { points[size] = point, weights[size++] = 0; }
+  const Point& operator[](int i) const { return points[place[i]]; }
 
-  bool holds(const Vector<D, S>& w) const {
-    bool held = false;
-    for (int i = 0; i < size; ++i) held |= ((points[i].w.array() == w.array()).template cast<int>().sum() == D);
-    return held;
+  void add(const Point& point) {
+    unsigned taken = 0;
+    for (int i = 0; i < size; ++i) taken |= 1u << place[i];
+    const int free = std::countr_one(taken);
+    points[free] = point, w[free] = point.w;
+    place[size] = free, weights[size++] = 0;
   }
 
-  /// Keeps the vertices of a feature, in their order, with its weights.
+  bool holds(const Vector<D, S>& x) const {
+    for (int i = 0; i < size; ++i)
+      if (w[place[i]] == x) return true;
+    return false;
+  }
+
+  /// Keeps the vertices of a feature, whose indices are places, in their order and with its weights.
   void reduce_to(const ClosestFeature<D, S>& feature) {
-    const std::array<Point, D + 1> before = points;
-    for (int i = 0; i < feature.count; ++i) points[i] = before[feature.index[i]], weights[i] = feature.weight[i];
+    for (int i = 0; i < feature.count; ++i) place[i] = feature.index[i], weights[i] = feature.weight[i];
     size = feature.count;
   }
 
@@ -48,8 +59,8 @@ struct Simplex {
 
  private:
   Vector<D, S> weighted(Vector<D, S> Point::*member) const {
-    Vector<D, S> sum = weights[0] * (points[0].*member);
-    for (int i = 1; i < size; ++i) sum += weights[i] * (points[i].*member);
+    Vector<D, S> sum = weights[0] * ((*this)[0].*member);
+    for (int i = 1; i < size; ++i) sum += weights[i] * ((*this)[i].*member);
     return sum;
   }
 };

@@ -10,6 +10,7 @@
 #pragma once
 
 #include "algo/boolean_gjk.h"
+#include "algo/box_sat.h"
 #include "algo/epa.h"
 #include "algo/gjk.h"
 #include "algo/johnson.h"
@@ -117,7 +118,7 @@ class PairSolver {
     const Simplex<D, S>& simplex = gjk_.simplex;
     warm_->size = simplex.size;
     for (int i = 0; i < simplex.size; ++i) {
-      const SupportPoint<D, S>& p = simplex.points[i];
+      const SupportPoint<D, S>& p = simplex[i];
       const bool old = p.vertex < before.size;
       warm_->a[i] = old ? before.a[p.vertex] : p.a, warm_->b[i] = old ? before.b[p.vertex] : difference_.from_b(p.b);
     }
@@ -134,6 +135,7 @@ class PairSolver {
       const Vector<D, double> local = frame_.rotation.transpose() * (world / world.cwiseAbs().maxCoeff());
       return local.template cast<S>();
     }
+    if (!axis_.isZero(0)) return axis_;
     return difference_.position().isZero(0) ? V(V::Unit(0)) : difference_.position();
   }
 
@@ -216,6 +218,8 @@ class PairSolver {
 
   /// False: apart, and the distance is asked for, or the theorem does not hold.
   bool sat_decides(Query query) {
+    const auto *box_a = solid_box(difference_.a()), *box_b = solid_box(difference_.b());
+    if (box_a && box_b) return boxes_decide(*box_a, *box_b, query);
     Sat<Difference, Trace> sat(difference_, *features_a_, *features_b_, difference_.rotation(), trace_);
     if (!sat.spans()) {
       if constexpr (traced<Trace>)
@@ -224,18 +228,67 @@ class PairSolver {
     }
     const bool yes_or_no = query == Query::intersect;
     const SatResult<D, S> found = sat.run(yes_or_no ? difference_.radius() : S(0));
+    if (!sat_answers(found, yes_or_no)) return false;
+    if (!yes_or_no) sat_witnesses(found, std::nullopt, query);
+    return true;
+  }
+
+  /// Of the theorem in its plainest form: both boxes, one of them with no side zero.
+  const BoxCore<D, S>* solid_box(const A& body) const {
+    if constexpr (requires { body.core(); }) {
+      const auto* box = std::get_if<BoxCore<D, S>>(&body.core());
+      return box && (box->half().array() > 0).all() ? box : nullptr;
+    }
+    return nullptr;
+  }
+  bool boxes_decide(const BoxCore<D, S>& a, const BoxCore<D, S>& b, Query query) {
+    const bool yes_or_no = query == Query::intersect;
+    BoxSat<Difference, Trace> sat(difference_, a, b, trace_);
+    const SatResult<D, S> found = sat.run(yes_or_no ? difference_.radius() : std::numeric_limits<S>::infinity());
+    if (sat_answers(found, yes_or_no)) {
+      if (!yes_or_no) sat_witnesses(found, sat.witnesses(), query);
+      return true;
+    }
+    const auto nearest = sat.witnesses();
+    if (nearest) apart_at(found, *nearest, query);
+    return nearest.has_value();
+  }
+
+  /// The widest gap, with a point of each box on its side of it: no other points are nearer.
+  void apart_at(const SatResult<D, S>& found, const BoxWitnesses<D, S>& nearest, Query query) {
+    const S gap = -found.depth;
+    result_.intersecting = static_cast<double>(gap) <= radius_;
+    if (query == Query::intersect) return;
+    set_bounds(gap - difference_.rounding_floor(), gap + difference_.rounding_floor());
+    if (query == Query::distance) {
+      result_.lower_bound = std::max(0.0, *result_.lower_bound), result_.upper_bound = std::max(0.0, *result_.upper_bound);
+      if (result_.intersecting) return set_common_point(result_, frame_, nearest.a, nearest.b, radius_a(), radius_b());
+    }
+    witnesses(nearest.a, nearest.b, found.normal, gap);
+  }
+
+  /// False: apart, and the distance is asked for.
+  bool sat_answers(const SatResult<D, S>& found, bool yes_or_no) {
     result_.iterations += found.iterations;
     result_.status = sat_status_names[static_cast<std::size_t>(found.status)];
     const bool apart = found.status == SatStatus::separated;
+    axis_ = found.normal;
     if (apart && !(yes_or_no && -static_cast<double>(found.depth) > radius_)) return false;
     result_.intersecting = !apart;
-    if (yes_or_no) return true;
-    const GjkResult<D, S> touching = push_apart(found);
-    const V a = touching.simplex.point_a(), b = touching.simplex.point_b() - push_;
-    if (query == Query::distance) return overlapping_at(a, b), true;
+    return true;
+  }
+
+  void sat_witnesses(const SatResult<D, S>& found, const std::optional<BoxWitnesses<D, S>>& known, Query query) {
+    V a, b;
+    if (known) {
+      a = known->a, b = known->b;
+    } else {
+      const GjkResult<D, S> touching = push_apart(found);
+      a = touching.simplex.point_a(), b = touching.simplex.point_b() - push_;
+    }
+    if (query == Query::distance) return overlapping_at(a, b);
     set_bounds(-found.depth - difference_.rounding_floor(), -found.depth + difference_.rounding_floor());
     witnesses(a, b, found.normal, -found.depth);
-    return true;
   }
 
   /// With body 1 moved out along the normal, by the depth and some more, the closest points are the witnesses.
@@ -292,6 +345,7 @@ class PairSolver {
   const Features *features_a_, *features_b_;  ///< of SAT
   WarmStart<D, S>* warm_;
   V push_ = V::Zero();
+  V axis_ = V::Zero();  ///< the separating axis found, where GJK goes on
   int more_calls_ = 0;
   GjkResult<D, S> gjk_;
   Result result_;

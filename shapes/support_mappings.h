@@ -44,7 +44,8 @@ struct SegmentCore {
 template <int D, class S>
 struct BoxCore {
   std::array<Vector<D, S>, 2> corners;  ///< the greatest, the least: looked up by the direction's signs, as no processor can guess those
-  Vector<D, S> center() const { return corners[1] + (corners[0] - corners[1]) / 2; }
+  Vector<D, S> half() const { return (corners[0] - corners[1]) / 2; }
+  Vector<D, S> center() const { return corners[1] + half(); }
   Vector<D, S> support(const Vector<D, S>& d) const {
     Vector<D, S> s;
     for (int i = 0; i < D; ++i) s[i] = corners[d[i] < 0][i];

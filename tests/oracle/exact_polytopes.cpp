@@ -75,7 +75,7 @@ struct Directions {
       const double h = height(unit);
       if (h > least + 1e-8 * pair.size) continue;
       least = std::min(least, h);
-      const auto same = [&](const Candidate& c) { return std::abs(c.height - h) <= 1e-12 * pair.size && (c.n - unit).norm() < 1e-10; };
+      const auto same = [&](const Candidate& c) { return (c.n - unit).norm() < 2e-15; };  // the heights differ by no more than that, times the size
       if (std::any_of(candidates.begin(), candidates.end(), same)) continue;
       candidates.push_back({unit, h, sign > 0 ? std::array{&p0, &p1, &q0, &q1} : std::array{&p1, &p0, &q0, &q1}});
     }
@@ -232,15 +232,18 @@ void edge_to_edge(Nearest& best, std::size_t i, std::size_t j, std::size_t k, st
   const Pair& s = best.s;
   const V e = s.fa[j] - s.fa[i], f = s.fb[l] - s.fb[k], n = e.cross(f), w = s.fb[k] - s.fa[i];
   const double nn = n.squaredNorm();
-  if (nn <= 1e-20 * e.squaredNorm() * f.squaredNorm()) return;  // parallel: a vertex does as well
-  const double t = w.cross(f).dot(n) / nn, u = w.cross(e).dot(n) / nn;
-  if (t < -1e-6 || t > 1 + 1e-6 || u < -1e-6 || u > 1 + 1e-6) return;
-  const double d = std::abs(n.dot(w)) / std::sqrt(nn);
-  if (!exactly) {
-    if (t >= 0 && t <= 1 && u >= 0 && u <= 1) best.least = std::min(best.least, d);
-    return;
+  if (nn <= 1e-8 * e.squaredNorm() * f.squaredNorm()) {  // nearly parallel: a vertex does nearly as well, and doubles cannot judge
+    if (!exactly) return;
+  } else {
+    const double t = w.cross(f).dot(n) / nn, u = w.cross(e).dot(n) / nn;
+    if (t < -1e-6 || t > 1 + 1e-6 || u < -1e-6 || u > 1 + 1e-6) return;
+    const double d = std::abs(n.dot(w)) / std::sqrt(nn);
+    if (!exactly) {
+      if (t >= 0 && t <= 1 && u >= 0 && u <= 1) best.least = std::min(best.least, d);
+      return;
+    }
+    if (!best.worth(d)) return;
   }
-  if (!best.worth(d)) return;
   const Point ex = s.a[j] - s.a[i], fx = s.b[l] - s.b[k], m = cross(ex, fx), x = s.b[k] - s.a[i];
   const Rational mm = dot(m, m);
   if (mm == 0) return;

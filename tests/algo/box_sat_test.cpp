@@ -1,0 +1,156 @@
+// The separating axes of two boxes against exact arithmetic: parallel, nearly parallel, flat, long, far out, inside one another, with margins.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <random>
+
+#include "algo/solve.h"
+#include "recordings/recording.h"
+#include "shapes/world_support.h"
+#include "tests/oracle/exact_polytopes.h"
+
+namespace gjkdbg {
+namespace {
+
+int pairs() {
+  const char* given = std::getenv("GJKDBG_PAIRS");
+  return given ? std::atoi(given) : 5000;
+}
+
+class BoxPairs {
+ public:
+  /// k chooses: whole numbers or not, how nearly parallel, flat or long, a side of no length, margins, a far place, a centre of its own.
+  Scene scene(int dimension, int k) {
+    Scene s;
+    s.dimension = dimension, s.query = Query::penetration;
+    for (int i = 0; i < 2; ++i) {
+      Body b{i == 0 ? "A" : "B", {box(dimension, k), k % 13 == 5 ? uniform(0, 0.5) : 0}, identity_pose(dimension)};
+      for (int j = 0; j < dimension; ++j) b.pose.position[j] = k % 2 == 0 ? whole(-2, 2) : uniform(-1.5, 1.5);
+      if (k % 11 == 3) b.pose.position.array() += 1e5;
+      turn(b.pose, dimension, k % 4 < 2 && i == 1 ? std::pow(10, -uniform(-1, 17)) : k % 4 < 2 ? 0 : 1);
+      s.bodies.push_back(b);
+    }
+    return s;
+  }
+
+ private:
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
+
+  Box box(int dimension, int k) {
+    Box b{AnyVector(dimension), AnyVector(dimension)};
+    for (int j = 0; j < dimension; ++j) {
+      b.max[j] = k % 2 == 0 ? whole(1, 3) : uniform(0.1, 2);
+      if (k % 5 == 1) b.max[j] *= std::pow(10, -uniform(0, 5));
+      if (k % 17 == 2 && j == 0) b.max[j] = 0;
+      b.min[j] = k % 7 == 4 && b.max[j] > 0 ? uniform(-2, 0) : -b.max[j];
+    }
+    return b;
+  }
+
+  void turn(Pose& pose, int dimension, double angle) {
+    const Eigen::Vector4d q(1, angle * uniform(-1, 1), angle * uniform(-1, 1), angle * uniform(-1, 1));
+    if (dimension == 3) {
+      pose.rotation = Quaternion{{q[0], q[1], q[2], q[3]}};
+      pose.matrix = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+    } else {
+      const double turned = 3 * q[1];
+      pose.rotation = PlaneAngle{turned};
+      pose.matrix = Eigen::Rotation2Dd(turned).toRotationMatrix();
+    }
+  }
+
+  std::mt19937 random_{11};
+};
+
+Settings sat(const Scene& scene, Scalar scalar = Scalar::double_precision) {
+  Method method;
+  method.name = MethodName::sat, method.scalar = scalar;
+  return resolve_settings(method, scene);
+}
+
+/// How far a point lies outside a body of the scene, at most.
+double outside(const Body& body, const AnyVector& point) {
+  const auto& box = std::get<Box>(body.shape.geometry);
+  const AnyVector local = body.pose.matrix.transpose() * (point - body.pose.position);
+  const AnyVector beyond = (local - box.max).cwiseMax(box.min - local).cwiseMax(0);
+  return std::max(0.0, beyond.norm() - body.shape.margin);
+}
+
+AnyVector farthest(const Scene& scene, int body, const AnyVector& direction) {
+  return WorldSupport(scene.bodies[static_cast<std::size_t>(body)], scene.dimension)(direction, true);
+}
+
+TEST(BoxSat, AgreesWithExactArithmetic) {
+  BoxPairs random;
+  double worst = 0, worst_float = 0;
+  int overlapping = 0, by_gjk = 0;
+  for (int k = 0; k < pairs(); ++k) {
+    const int dimension = 2 + k % 2;
+    const Scene scene = random.scene(dimension, k / 2);
+    SCOPED_TRACE(std::to_string(dimension) + "D pair " + std::to_string(k));
+    const auto exact = oracle::signed_distance(scene);
+    ASSERT_TRUE(exact);
+    const double size = 8, place = size + scene.bodies[0].pose.position.norm(), sd = exact->signed_distance;
+    const Result r = solve(scene, sat(scene));
+    ASSERT_TRUE(r.signed_distance && r.normal && r.witness_a && r.witness_b && r.lower_bound && r.upper_bound);
+    // Else GJK gave the distance, at its own tolerance, or the witnesses.
+    const bool by_formula = (r.status == "overlapping" || r.status == "separated") && r.support_calls <= r.iterations + 1;
+    const double error = std::abs(*r.signed_distance - sd) / size, tolerance = by_formula ? 1e-14 : 1e-14 + 1e-12 * std::abs(sd) / size;
+    worst = std::max(worst, error);
+    EXPECT_LE(error, tolerance) << *r.signed_distance << " for " << sd;
+    EXPECT_LE(*r.lower_bound, sd + 1e-15 * std::abs(sd));
+    EXPECT_GE(*r.upper_bound, sd - 1e-15 * std::abs(sd));
+    EXPECT_LE(*r.upper_bound - *r.lower_bound, 1e-12 * size);
+    EXPECT_NEAR(r.normal->norm(), 1, 1e-14);
+    EXPECT_LE((*r.witness_b - *r.witness_a - *r.signed_distance * *r.normal).norm(), 1e-14 * place);
+    const double off = by_formula ? 1e-14 * place : 1e-10 * size + 1e-14 * place;
+    EXPECT_LE(outside(scene.bodies[0], *r.witness_a), off);
+    EXPECT_LE(outside(scene.bodies[1], *r.witness_b), off) << r.status << " " << sd << " " << r.support_calls;
+    const AnyVector a = farthest(scene, 0, *r.normal), b = farthest(scene, 1, -*r.normal);
+    EXPECT_NEAR(r.normal->dot(b - a), sd, tolerance * size + 1e-14 * place) << "the normal certifies the distance";
+    overlapping += r.intersecting, by_gjk += !by_formula;
+    for (const Query query : {Query::intersect, Query::distance}) {
+      Scene asked = scene;
+      asked.query = query;
+      const Result least = solve(asked, sat(asked));
+      if (std::abs(sd) > 1e-13 * size) {
+        EXPECT_EQ(least.intersecting, sd <= 0);
+      }
+      if (query == Query::distance) {
+        EXPECT_NEAR(*least.signed_distance, std::max(0.0, sd), tolerance * size);
+      } else {
+        EXPECT_FALSE(least.signed_distance || least.normal || least.lower_bound);
+      }
+    }
+    const Result single = solve(scene, sat(scene, Scalar::float_precision));
+    worst_float = std::max(worst_float, std::abs(*single.signed_distance - sd) / size);
+    if (testing::Test::HasFailure()) break;
+  }
+  EXPECT_LE(worst_float, 1e-5);
+  EXPECT_GT(overlapping, pairs() / 10);
+  std::printf("worst error %.2g, in float %.2g of the size; %d of %d overlap, %d need GJK\n", worst, worst_float, overlapping, pairs(), by_gjk);
+}
+
+TEST(BoxSat, TracesWhatItComputes) {
+  BoxPairs random;
+  for (int k = 0; k < 1000; ++k) {
+    const Scene scene = random.scene(2 + k % 2, k / 2);
+    Recorder recorder;
+    const Result r = solve(scene, sat(scene), recorder), silent = solve(scene, sat(scene));
+    EXPECT_EQ(*r.signed_distance, *silent.signed_distance);
+    EXPECT_EQ(*r.witness_a, *silent.witness_a);
+    EXPECT_EQ(r.iterations, silent.iterations);
+    EXPECT_EQ(r.support_calls, silent.support_calls);
+    for (const auto& event : recorder.take_all()) {
+      const auto* axis = std::get_if<recorded::AxisTested>(&event);
+      if (!axis) continue;
+      EXPECT_NEAR(axis->direction.norm(), 1, 1e-14);
+      const AnyVector a = farthest(scene, 0, axis->direction), b = farthest(scene, 1, -axis->direction);
+      EXPECT_NEAR(axis->distance, axis->direction.dot(b - a), 1e-14 * (8 + scene.bodies[0].pose.position.norm())) << k;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gjkdbg
