@@ -53,12 +53,12 @@ RelativePose<D, S> relative_pose(const PlacedAxes<D>& pose_a, const Vector<D, do
                                  const Vector<D, double>& reference_b, double scale) {
   using Two = DoubleDouble;
   Two offset[D];
-  for (int i = 0; i < D; ++i) {
-    offset[i] = Two::two_sum(pose_b.position[i] * scale, -(pose_a.position[i] * scale));
-    for (int j = 0; j < D; ++j) {
-      if (reference_b[j] != 0) offset[i] = offset[i] + Two::two_product(pose_b.rotation(i, j), reference_b[j]);
-      if (reference_a[j] != 0) offset[i] = offset[i] - Two::two_product(pose_a.rotation(i, j), reference_a[j]);
-    }
+  for (int i = 0; i < D; ++i) offset[i] = Two::two_sum(pose_b.position[i] * scale, -(pose_a.position[i] * scale));
+  for (int j = 0; j < D; ++j) {
+    if (reference_b[j] != 0)
+      for (int i = 0; i < D; ++i) offset[i] = offset[i] + Two::two_product(pose_b.rotation(i, j), reference_b[j]);
+    if (reference_a[j] != 0)
+      for (int i = 0; i < D; ++i) offset[i] = offset[i] - Two::two_product(pose_a.rotation(i, j), reference_a[j]);
   }
   Vector<D, double> high, low;
   for (int i = 0; i < D; ++i) high[i] = offset[i].high, low[i] = offset[i].low;

@@ -70,9 +70,18 @@ class PairSolver {
         features_a_(features_a), features_b_(features_b), warm_(settings.start == Start::previous ? warm : nullptr) {}
 
   Result run(Query query) {
+    Result result;
+    result_ = &result;
+    decide(query);
+    result.support_calls = difference_.support_calls() + more_calls_;
+    return result;
+  }
+
+ private:
+  void decide(Query query) {
     if (settings_.name == MethodName::gjk_boolean) return boolean();
-    if (settings_.name == MethodName::mpr && mpr_decides(query)) return counted();
-    if (settings_.name == MethodName::sat && sat_decides(query)) return counted();
+    if (settings_.name == MethodName::mpr && mpr_decides(query)) return;
+    if (settings_.name == MethodName::sat && sat_decides(query)) return;
     GjkOptions<D, S> options;
     options.goal = query == Query::intersect  ? GjkGoal::intersect
                    : query == Query::distance ? GjkGoal::distance
@@ -91,19 +100,17 @@ class PairSolver {
     }
     gjk_ = run_gjk(options);
     if (warm_) keep_simplex();
-    result_.status = gjk_status_names[static_cast<std::size_t>(gjk_.status)];
-    result_.iterations += gjk_.iterations;
+    result_->status = std::string(gjk_status_names[static_cast<std::size_t>(gjk_.status)]);
+    result_->iterations += gjk_.iterations;
     if (query == Query::intersect) {
-      result_.intersecting = overlapping();
+      result_->intersecting = overlapping();
     } else if (query == Query::distance) {
       distance();
     } else {
       penetration();
     }
-    return counted();
   }
 
- private:
   GjkResult<D, S> run_gjk(const GjkOptions<D, S>& options) {
     switch (settings_.closest_point) {
       case ClosestPoint::johnson: return gjk<Johnson<D, S>>(difference_, options, trace_);
@@ -124,11 +131,6 @@ class PairSolver {
     }
   }
 
-  Result counted() {
-    result_.support_calls = difference_.support_calls() + more_calls_;
-    return std::move(result_);
-  }
-
   V first_direction() const {
     if (settings_.initial_direction) {
       const Vector<D, double> world = *settings_.initial_direction;
@@ -139,13 +141,12 @@ class PairSolver {
     return difference_.position().isZero(0) ? V(V::Unit(0)) : difference_.position();
   }
 
-  Result boolean() {
+  void boolean() {
     InflatedDifference<Difference> bodies(difference_);
     const auto found = BooleanGjk<InflatedDifference<Difference>, Trace>(bodies, first_direction(), settings_.max_iterations, trace_).run();
-    result_.intersecting = found.intersecting();
-    result_.status = gjk_status_names[static_cast<std::size_t>(found.status)];
-    result_.iterations = found.iterations;
-    return counted();
+    result_->intersecting = found.intersecting();
+    result_->status = std::string(gjk_status_names[static_cast<std::size_t>(found.status)]);
+    result_->iterations = found.iterations;
   }
 
   bool overlapping() const {
@@ -153,11 +154,11 @@ class PairSolver {
   }
 
   void distance() {
-    result_.intersecting = overlapping();
-    result_.lower_bound = std::max(0.0, length(gjk_.lower_bound - radius_));
-    result_.upper_bound = std::max(0.0, length(gjk_.upper_bound - radius_));
-    if (!result_.intersecting) return separated();
-    set_common_point(result_, frame_, gjk_.simplex.point_a(), gjk_.simplex.point_b(), radius_a(), radius_b());
+    result_->intersecting = overlapping();
+    result_->lower_bound = std::max(0.0, length(gjk_.lower_bound - radius_));
+    result_->upper_bound = std::max(0.0, length(gjk_.upper_bound - radius_));
+    if (!result_->intersecting) return separated();
+    set_common_point(*result_, frame_, gjk_.simplex.point_a(), gjk_.simplex.point_b(), radius_a(), radius_b());
   }
 
   void penetration() {
@@ -173,8 +174,8 @@ class PairSolver {
     options.tolerance = static_cast<S>(settings_.tolerance);
     options.max_iterations = settings_.max_iterations;
     const EpaResult<D, S> found = epa(difference_, gjk_.simplex, options, workspace_.epa, trace_);
-    result_.status = epa_status_names[static_cast<std::size_t>(found.status)];
-    result_.iterations += found.iterations;
+    result_->status = std::string(epa_status_names[static_cast<std::size_t>(found.status)]);
+    result_->iterations += found.iterations;
     set_bounds(-found.upper_bound, -found.lower_bound);
     const bool flat = found.face < 0;
     witnesses(flat ? gjk_.simplex.point_a() : found.point_a, flat ? gjk_.simplex.point_b() : found.point_b, found.normal, -found.depth);
@@ -190,8 +191,8 @@ class PairSolver {
     options.depth = depth;
     options.interior = difference_.center();
     const MprResult<D, S> found = mpr(bodies, options, trace_);
-    result_.status = mpr_status_names[static_cast<std::size_t>(found.status)];
-    result_.iterations += found.iterations;
+    result_->status = std::string(mpr_status_names[static_cast<std::size_t>(found.status)]);
+    result_->iterations += found.iterations;
     return found;
   }
 
@@ -200,7 +201,7 @@ class PairSolver {
     const bool depth = query == Query::penetration || query == Query::contact;
     const MprResult<D, S> found = run_mpr(depth && settings_.penetration == Penetration::mpr);
     if (!found.decided || (!found.overlapping() && query != Query::intersect)) return false;
-    result_.intersecting = found.overlapping();
+    result_->intersecting = found.overlapping();
     if (query == Query::intersect) return true;
     if (!depth) return overlapping_at(found.point_a, found.point_b), true;
     if (settings_.penetration == Penetration::epa) return false;  // GJK's simplex is where EPA starts
@@ -211,9 +212,9 @@ class PairSolver {
 
   void portal_depth(const MprResult<D, S>& found) {
     witnesses(found.point_a, found.point_b, found.normal, S(static_cast<double>(-found.depth) + radius_), true);
-    result_.intersecting = found.overlapping();
-    result_.lower_bound = length(-static_cast<double>(found.upper_bound));
-    result_.upper_bound = length(-static_cast<double>(found.lower_bound));
+    result_->intersecting = found.overlapping();
+    result_->lower_bound = length(-static_cast<double>(found.upper_bound));
+    result_->upper_bound = length(-static_cast<double>(found.lower_bound));
   }
 
   /// False: apart, and the distance is asked for, or the theorem does not hold.
@@ -257,24 +258,24 @@ class PairSolver {
   /// The widest gap, with a point of each box on its side of it: no other points are nearer.
   void apart_at(const SatResult<D, S>& found, const BoxWitnesses<D, S>& nearest, Query query) {
     const S gap = -found.depth;
-    result_.intersecting = static_cast<double>(gap) <= radius_;
+    result_->intersecting = static_cast<double>(gap) <= radius_;
     if (query == Query::intersect) return;
     set_bounds(gap - difference_.rounding_floor(), gap + difference_.rounding_floor());
     if (query == Query::distance) {
-      result_.lower_bound = std::max(0.0, *result_.lower_bound), result_.upper_bound = std::max(0.0, *result_.upper_bound);
-      if (result_.intersecting) return set_common_point(result_, frame_, nearest.a, nearest.b, radius_a(), radius_b());
+      result_->lower_bound = std::max(0.0, *result_->lower_bound), result_->upper_bound = std::max(0.0, *result_->upper_bound);
+      if (result_->intersecting) return set_common_point(*result_, frame_, nearest.a, nearest.b, radius_a(), radius_b());
     }
     witnesses(nearest.a, nearest.b, found.normal, gap);
   }
 
   /// False: apart, and the distance is asked for.
   bool sat_answers(const SatResult<D, S>& found, bool yes_or_no) {
-    result_.iterations += found.iterations;
-    result_.status = sat_status_names[static_cast<std::size_t>(found.status)];
+    result_->iterations += found.iterations;
+    result_->status = std::string(sat_status_names[static_cast<std::size_t>(found.status)]);
     const bool apart = found.status == SatStatus::separated;
     axis_ = found.normal;
     if (apart && !(yes_or_no && -static_cast<double>(found.depth) > radius_)) return false;
-    result_.intersecting = !apart;
+    result_->intersecting = !apart;
     return true;
   }
 
@@ -306,21 +307,21 @@ class PairSolver {
 
   /// The answer of a distance query to an overlap: a point of both, or as near to that as the method knows.
   void overlapping_at(const V& a, const V& b) {
-    result_.intersecting = true;
-    result_.signed_distance = result_.lower_bound = result_.upper_bound = 0;
-    result_.witness_a = result_.witness_b = frame_.point(V((a + b) / 2));
+    result_->intersecting = true;
+    result_->signed_distance = result_->lower_bound = result_->upper_bound = 0;
+    result_->witness_a = result_->witness_b = frame_.point(V((a + b) / 2));
   }
 
   void overlap_only() {
-    result_.intersecting = true;
-    result_.lower_bound.reset();
-    result_.upper_bound = length(-radius_);
+    result_->intersecting = true;
+    result_->lower_bound.reset();
+    result_->upper_bound = length(-radius_);
   }
 
   /// Bounds of the cores' signed distance.
   void set_bounds(S lower, S upper) {
-    result_.lower_bound = length(static_cast<double>(lower) - radius_);
-    result_.upper_bound = length(static_cast<double>(upper) - radius_);
+    result_->lower_bound = length(static_cast<double>(lower) - radius_);
+    result_->upper_bound = length(static_cast<double>(upper) - radius_);
   }
 
   void separated() { witnesses(gjk_.simplex.point_a(), gjk_.simplex.point_b(), -gjk_.v / gjk_.distance, gjk_.distance); }
@@ -328,7 +329,7 @@ class PairSolver {
   /// `inflated`: a and b are of the bodies already.
   void witnesses(const V& a, const V& b, const V& normal, S core_distance, bool inflated = false) {
     const double ra = inflated ? radius_ / 2 : radius_a(), rb = inflated ? radius_ / 2 : radius_b();
-    set_witnesses(result_, frame_, a, b, normal, static_cast<double>(core_distance), ra, rb);
+    set_witnesses(*result_, frame_, a, b, normal, static_cast<double>(core_distance), ra, rb);
   }
 
   double radius_a() const { return static_cast<double>(difference_.radius_a()); }
@@ -348,7 +349,7 @@ class PairSolver {
   V axis_ = V::Zero();  ///< the separating axis found, where GJK goes on
   int more_calls_ = 0;
   GjkResult<D, S> gjk_;
-  Result result_;
+  Result* result_ = nullptr;  ///< during `run`
 };
 
 }  // namespace gjkdbg

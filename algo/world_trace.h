@@ -36,9 +36,9 @@ void set_witnesses(Result& result, const WorkingFrame<D, S>& frame, const Vector
   const Vector<D, double> n = frame.direction(normal), middle = frame.point(Vector<D, S>((a + b) / 2));
   result.signed_distance = distance * frame.unit + 0.0;  // no negative zero
   result.intersecting = distance <= 0;
-  result.normal = n;
-  result.witness_a = middle - n * ((core_distance / 2 - radius_a) * frame.unit);
-  result.witness_b = middle + n * ((core_distance / 2 - radius_b) * frame.unit);
+  result.normal.emplace(n);
+  result.witness_a.emplace(middle - n * ((core_distance / 2 - radius_a) * frame.unit));
+  result.witness_b.emplace(middle + n * ((core_distance / 2 - radius_b) * frame.unit));
 }
 
 /// The answer of a distance query to an overlap: a point of both bodies between the nearest points of their cores.
