@@ -15,8 +15,8 @@ namespace gjkdbg {
 /// programs can rely on; `message` is one line of English without a final full stop.
 class Error : public std::runtime_error {
  public:
-  Error(std::string code, std::string message, std::string where = {})
-      : std::runtime_error(message), code_(std::move(code)), message_(std::move(message)), where_(std::move(where)) {}
+  Error(std::string code, const std::string& message, const std::string& where = {})
+      : std::runtime_error(one_line(message)), code_(std::move(code)), message_(one_line(message)), where_(one_line(where)) {}
 
   const std::string& code() const { return code_; }
   const std::string& message() const { return message_; }
@@ -29,6 +29,18 @@ class Error : public std::runtime_error {
   std::string line() const { return where_.empty() ? message_ : where_ + ": " + message_; }
 
  private:
+  /// Names from the input may hold anything: control characters are written as \xNN.
+  static std::string one_line(const std::string& text) {
+    constexpr const char* digits = "0123456789abcdef";
+    std::string line;
+    for (const char c : text) {
+      const auto code = static_cast<unsigned char>(c);
+      if (code >= 0x20 && code != 0x7f) line += c;
+      else line += {'\\', 'x', digits[code / 16], digits[code % 16]};
+    }
+    return line;
+  }
+
   std::string code_, message_, where_;
 };
 

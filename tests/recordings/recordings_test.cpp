@@ -221,6 +221,11 @@ bool reads(const std::string& text) {
   }
 }
 
+TEST(DamagedRecordings, ANameWithALineBreakIsToldInOneLine) {
+  EXPECT_FALSE(reads("{\"format\":\"gjk-recording\",\"version\":1,\"two\\nlines\":1}"));
+  EXPECT_EQ(Error("code", "no 'a\nb\x7f'", "/c\td").line(), "/c\\x09d: no 'a\\x0ab\\x7f'");
+}
+
 TEST(DamagedRecordings, TruncatedAnywhere) {
   const std::string text = recording_to_text(record(read_scene(gallery().file("2d-deep"))));
   for (std::size_t length = 0; length + 3 < text.size(); length += 11) EXPECT_FALSE(reads(text.substr(0, length))) << length;
