@@ -40,15 +40,26 @@ void check_polytopes(const Scene& scene) {
       refuse("method \"sat\" needs polytopes with or without a radius; body \"" + body.name + "\" is a " + type_name(body.shape, scene.dimension), "/method/name");
 }
 
-/// The closed form needs cores that are points or segments; on a line every body is one.
+/// A core that is a point or a segment, as the closed form needs; on a line every body is one.
+bool segment(const Body& body, int dimension) {
+  const PointSet* points = std::get_if<PointSet>(&body.shape.geometry);
+  return dimension == 1 || std::holds_alternative<Sphere>(body.shape.geometry) || std::holds_alternative<Capsule>(body.shape.geometry) ||
+         (points && points->points.size() <= 2);
+}
 void check_segments(const Scene& scene) {
   for (const Body& body : scene.bodies) {
-    const PointSet* points = std::get_if<PointSet>(&body.shape.geometry);
-    const bool segment = scene.dimension == 1 || std::holds_alternative<Sphere>(body.shape.geometry) || std::holds_alternative<Capsule>(body.shape.geometry) ||
-                         (points && points->points.size() <= 2);
-    if (!segment)
+    if (!segment(body, scene.dimension))
       refuse("method \"closed-form\" needs spheres, capsules, points or segments; body \"" + body.name + "\" is a " + type_name(body.shape, scene.dimension), "/method/name");
   }
+}
+
+/// Segments have their closed form, two boxes the 15 axes of SAT; nothing beats GJK for the rest, for bodies in motion, or where its settings are asked for.
+MethodName fastest_for(const Scene& scene, const Method& m) {
+  const bool settings = m.closest_point || m.penetration || m.stopping || m.acceleration || m.start || m.initial_direction || !m.initial_simplex.empty();
+  if (settings || scene.query == Query::cast || scene.query == Query::simulate) return MethodName::gjk;
+  const auto all = [&](auto&& kind) { return std::all_of(scene.bodies.begin(), scene.bodies.end(), kind); };
+  if (all([&](const Body& body) { return segment(body, scene.dimension); })) return MethodName::closed_form;
+  return all([](const Body& body) { return std::holds_alternative<Box>(body.shape.geometry); }) ? MethodName::sat : MethodName::gjk;
 }
 
 bool of_cast(MethodName name) { return name >= MethodName::conservative_advancement; }
@@ -134,6 +145,7 @@ Settings resolve_settings(const Method& method, const Scene& scene) {
   Settings s;
   const MethodName plain = scene.query == Query::cast ? MethodName::conservative_advancement : MethodName::gjk;
   s.name = method.name.value_or(plain);
+  if (s.name == MethodName::fastest) s.name = fastest_for(scene, method);
   if (s.name == MethodName::gjk) s.name = plain;  // of a cast: with GJK inside
   s.closest_point = method.closest_point.value_or(s.closest_point);
   s.penetration = method.penetration.value_or(s.name == MethodName::mpr ? Penetration::mpr : s.penetration);

@@ -199,7 +199,8 @@ struct Explain {
 
   Explanation operator()(const recorded::SatBegan& e) const {
     return {"SAT begins", "Two polytopes are apart exactly when the normal of a face or the cross product of two edges separates them: " + std::to_string(e.faces_a) + " faces of A, " + std::to_string(e.faces_b) +
-                              " of B, and of " + std::to_string(e.edge_pairs) + " pairs of edges those that make a face of A - B."};
+                              " of B, and of " + std::to_string(e.edge_pairs) + " pairs of edges those that make a face of A - B." +
+                              (e.faces_a == 3 && e.faces_b == 3 && e.edge_pairs == 9 ? " Of two boxes opposite faces and parallel edges share an axis." : "")};
   }
 
   Explanation operator()(const recorded::AxisTested& e) const {
@@ -211,7 +212,7 @@ struct Explain {
 
   Explanation operator()(const recorded::SatEnded& e) const {
     const std::string title = "SAT ends: " + std::string(sat_status_names[static_cast<std::size_t>(e.status)]);
-    if (e.status == SatStatus::separated) return {title, "One separating axis is proof enough: the bodies (their cores) are apart. How far, GJK tells if it is asked for."};
+    if (e.status == SatStatus::separated) return {title, "One separating axis is proof enough: the bodies (their cores) are apart. Where two boxes have a point each across the widest gap, that gap is the distance; else GJK measures it, if it is asked for."};
     return {title, "No axis separates, so the bodies overlap; the least overlap of all axes, " + short_number(-e.distance) + " along " + short_vector(e.normal) + ", is the depth, exactly."};
   }
 

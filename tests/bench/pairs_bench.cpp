@@ -7,6 +7,7 @@
 //   pairs_bench --benchmark_filter=coherent       one pair in motion, cold and warm starts
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -169,7 +170,13 @@ void register_family(const std::string& name, const Source& source, bool three_d
   add("accelerated", MethodName::gjk_accelerated);
   add("float", MethodName::gjk, Query::penetration, Scalar::float_precision);
   add("yes-no", MethodName::gjk, Query::intersect);
-  if (name.starts_with("boxes")) add("sat", MethodName::sat);
+  const auto made_of = [&](std::initializer_list<std::string_view> families) { return std::any_of(families.begin(), families.end(), [&](auto f) { return name.starts_with(f); }); };
+  if (made_of({"boxes", "faces-touching", "slivers", "size-ratio", "offset-1e5", "rectangles"})) add("sat", MethodName::sat);
+  if (made_of({"curved"})) {
+    Method m;
+    m.tolerance = 1e-6;
+    benchmark::RegisterBenchmark((name + "/at-1e-6").c_str(), [=](benchmark::State& state) { ours(state, name, source, m, Query::penetration); })->MinTime(0.1);
+  }
   if (name.starts_with("capsules")) add("closed-form", MethodName::closed_form);
   if (!three_d) return;
   for (const Peer& peer : peers())
