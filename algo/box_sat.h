@@ -14,6 +14,7 @@
 // The least height is the depth, as in algo/sat.h; where it is negative and both witnesses lie on their boxes, it is the distance.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -100,21 +101,22 @@ class BoxSat {
 
   static constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
 
-  /// An axis is a support of which only the height is wanted.
-  void count() { ++result_.iterations, difference_.count_support(); }
+  /// An axis is a support of which only the height is wanted; in a trace it is asked for in full.
+  void count() {
+    ++result_.iterations;
+    if constexpr (!traced<Trace>) difference_.count_support();
+  }
 
   bool separates(const Axis& axis, S height) {
     if (result_.iterations == 0 || height < result_.depth) result_.depth = height, best_ = axis;
+    count();
     if constexpr (traced<Trace>) {
-      ++result_.iterations;
       const V n = normal(axis);
       const auto point = difference_.support(n);
       const double radius = static_cast<double>(difference_.radius());
       trace_(SupportQueried<V, Viewed>{result_.iterations, Phase::sat, n, point.vertex, point.a, point.b, point.w});
       trace_(AxisTested<V, Viewed>{result_.iterations, axis.source, point.vertex, n, static_cast<double>(-height) - radius,
                                    static_cast<double>(-result_.depth - floor_) - radius, std::numeric_limits<double>::quiet_NaN()});
-    } else {
-      count();
     }
     return -height > enough_ + floor_;
   }
