@@ -1,7 +1,7 @@
 // The convex hull of a point set: its extreme vertices, faces and edges.
 //
 // Hulls in space come from Qhull (Barber, Dobkin, Huhdanpaa 1996); flat, collinear and single-point sets are handled
-// here. Used to reduce hulls to their extreme vertices, for hill climbing, for contact polygons and for display. Our
+// here. Used to reduce hulls to their extreme vertices, for their table of directions, for contact polygons and for display. Our
 // GJK and EPA never see it.
 #pragma once
 
