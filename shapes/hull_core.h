@@ -1,6 +1,6 @@
 // The support mapping of a convex polytope with many vertices: a table of directions.
 //
-// A cube around the origin is cut into cells, about twice as many as the hull has vertices, and every cell keeps the vertices
+// A cube around the origin is cut into cells, about twice as many as the hull has vertices (but no more than 100,000), and every cell keeps the vertices
 // that are highest along one of its directions: about four, one after the other in memory. A query looks at those
 // and nothing else, however many vertices there are.
 //
@@ -39,7 +39,7 @@ class HullCore {
     for (const V& v : vertices) center_ += v, low = low.cwiseMin(v), high = high.cwiseMax(v);
     center_ /= static_cast<S>(vertices.size());
     box_ = high - low;
-    across_ = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(vertices.size()) / 3)));
+    across_ = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(vertices.size()) / 3)), 1, 128);
     const int cells = 6 * across_ * across_;
     std::vector<int> spread{0};
     std::vector<int> met(vertices.size(), -1);

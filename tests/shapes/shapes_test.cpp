@@ -73,18 +73,40 @@ TEST(Support, OfAZeroDirectionIsAPointOfTheShape) {
   }
 }
 
+/// Against a scan of all points, also along directions in which several are as high, and for hulls as thin as the last bits allow.
+void expect_supports_of_a_scan(const std::vector<V3>& points, RandomScenes& random) {
+  PointSet set;
+  double size = 0;
+  for (const V3& p : points) set.points.push_back(any(p)), size = std::max(size, p.norm());
+  const Convex<3, double> convex(Shape{set, 0});
+  for (int i = 0; i < 500; ++i) {
+    V3 d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    if (i % 5 == 0) d = (points[static_cast<std::size_t>(i) % points.size()] - points[0]).cross(points[static_cast<std::size_t>(i / 5) % points.size()] - points[0]);
+    if (i % 7 == 0) d[i % 3] = 0;
+    if (i % 11 == 0) d = V3::Unit(i % 3) * (i % 2 == 0 ? 1 : -1);
+    double most = -std::numeric_limits<double>::infinity();
+    for (const V3& p : points) most = std::max(most, d.dot(p));
+    ASSERT_NEAR(d.dot(convex.reference() + convex.support(d)), most, 1e-14 * size * d.norm()) << d.transpose();
+  }
+}
+
 TEST(Support, TheTableOfAHullFindsWhatAScanFinds) {
   RandomScenes random(2);
-  for (const int count : {table_from, 100, 500}) {
-    PointSet set;
-    for (int i = 0; i < count * 2; ++i) set.points.push_back(any(V3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized() * random.uniform(0.97, 1)));
-    const Convex<3, double> convex(Shape{set, 0});
-    for (int i = 0; i < 500; ++i) {
-      const V3 d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-      double most = -10;
-      for (const AnyVector& p : set.points) most = std::max(most, d.dot(V3(p)));
-      EXPECT_NEAR(d.dot(convex.reference() + convex.support(d)), most, 1e-14);
-    }
+  const Eigen::Matrix3d turned = Eigen::AngleAxisd(0.7, V3(1, 2, 3).normalized()).toRotationMatrix();
+  for (const int count : {table_from, 30, 100, 500}) {
+    std::vector<V3> round, rings;
+    for (int i = 0; i < count * 2; ++i) round.push_back(V3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized() * random.uniform(0.97, 1));
+    for (int i = 0; i < count; ++i) rings.push_back(V3(std::cos(6.28 * i / count), std::sin(6.28 * i / count), i % 2 == 0 ? 1 : -1));
+    for (const std::vector<V3>& points : {round, rings})
+      for (const V3& stretch : {V3(1, 1, 1), V3(1, 1, 1e-6), V3(1e-6, 1, 1e-3), V3(1, 1e-4, 1e-4)})
+        for (const Eigen::Matrix3d& rotation : {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), turned})
+          for (const V3& place : {V3(0, 0, 0), V3(1000, 0, -3)}) {
+            std::vector<V3> placed;
+            for (const V3& p : points) placed.push_back(rotation * p.cwiseProduct(stretch) + place);
+            SCOPED_TRACE(std::to_string(points.size()) + " points stretched by " + std::to_string(stretch[0]) + " " + std::to_string(stretch[1]) + " " + std::to_string(stretch[2]));
+            expect_supports_of_a_scan(placed, random);
+            if (testing::Test::HasFailure()) return;
+          }
   }
 }
 
