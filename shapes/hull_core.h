@@ -1,7 +1,7 @@
 // The support mapping of a convex polytope with many vertices: a table of directions.
 //
 // A cube around the origin is cut into cells, about twice as many as the hull has vertices (but no more than 100,000), and every cell keeps the vertices
-// that are highest along one of its directions: about four, one after the other in memory. A query looks at those
+// that are highest along one of its directions: about four, side by side in memory. A query looks at those
 // and nothing else, however many vertices there are.
 //
 //       +---+---+---+        Whether vertex v can be left out of a cell with corners c1 … c4: if a neighbour u has
@@ -47,11 +47,16 @@ class HullCore {
       spread.assign(1, climb(vertices, hull, spread.front(), direction(cell, S(0.5), S(0.5))));
       met[static_cast<std::size_t>(spread.front())] = cell;
       const std::array<V, 4> corners{direction(cell, 0, 0), direction(cell, 0, 1), direction(cell, 1, 0), direction(cell, 1, 1)};
-      first_.push_back(static_cast<int>(highest_.size()));
-      for (std::size_t i = 0; i < spread.size(); ++i) {
-        highest_.push_back(vertices[static_cast<std::size_t>(spread[i])]);
+      for (std::size_t i = 0; i < spread.size(); ++i)
         for (const int other : around(hull, spread[i]))
           if (std::exchange(met[static_cast<std::size_t>(other)], cell) != cell && !overtopped(vertices, hull, other, corners)) spread.push_back(other);
+      first_.push_back(static_cast<int>(highest_.size()));
+      for (std::size_t i = 0; i < spread.size(); i += 4) {
+        Four& four = highest_.emplace_back();
+        for (std::size_t k = 0; k < 4; ++k) {
+          const V& v = vertices[static_cast<std::size_t>(spread[std::min(i + k, spread.size() - 1)])];
+          for (int c = 0; c < 3; ++c) four.coordinate[c][k] = v[c];
+        }
       }
     }
     first_.push_back(static_cast<int>(highest_.size()));
@@ -61,16 +66,27 @@ class HullCore {
 
   V support(const V& d) const {
     const int* range = first_.data() + cell_of(box_.cwiseProduct(d));
-    const V* best = highest_.data() + range[0];
-    S best_dot = best->dot(d);
-    for (const V *v = best + 1, *end = highest_.data() + range[1]; v < end; ++v) {
-      const S dot = v->dot(d);
-      if (dot > best_dot) best = v, best_dot = dot;
+    const Four *four = highest_.data() + range[0], *const end = highest_.data() + range[1];
+    const S* best = four->coordinate[0];
+    S best_dot = -std::numeric_limits<S>::infinity();
+    for (; four < end; ++four) {
+      S dot[4];
+      for (int k = 0; k < 4; ++k) dot[k] = four->coordinate[0][k] * d[0] + four->coordinate[1][k] * d[1] + four->coordinate[2][k] * d[2];
+      const bool second = dot[1] > dot[0], fourth = dot[3] > dot[2];
+      const S left = std::max(dot[0], dot[1]), right = std::max(dot[2], dot[3]), most = std::max(left, right);
+      const int place = right > left ? 2 + fourth : 0 + second;
+      const bool higher = most > best_dot;
+      best = higher ? &four->coordinate[0][place] : best, best_dot = higher ? most : best_dot;
     }
-    return *best;
+    return V(best[0], best[4], best[8]);
   }
 
  private:
+  /// Four vertices; where there are fewer, the last is there again: the comparisons are then as many in nearly every cell, and without a branch.
+  struct Four {
+    S coordinate[3][4];
+  };
+
   static std::span<const int> around(const ConvexHull& hull, int vertex) {
     const auto i = static_cast<std::size_t>(vertex);
     return std::span(hull.neighbours).subspan(static_cast<std::size_t>(hull.first_neighbour[i]), static_cast<std::size_t>(hull.first_neighbour[i + 1] - hull.first_neighbour[i]));
@@ -78,10 +94,10 @@ class HullCore {
 
   /// Where d leaves the cube: its largest component says through which side, the others in which of that side's cells.
   int cell_of(const V& d) const {
-    const S x = std::abs(d[0]), y = std::abs(d[1]), z = std::abs(d[2]);
-    const int axis = y > x ? (z > y ? 2 : 1) : (z > x ? 2 : 0);
+    const S x = std::abs(d[0]), y = std::abs(d[1]), z = std::abs(d[2]), xy = std::max(x, y);
+    const int first = y > x, axis = z > xy ? 2 : first;  // no branch: which it is, is nothing a processor can guess
     constexpr int after[3] = {1, 2, 0};
-    const S most = std::max(std::max(x, y), z), half = static_cast<S>(across_) / 2, scale = most > 0 ? half / most : S(0);
+    const S most = std::max(xy, z), half = static_cast<S>(across_) / 2, scale = most > 0 ? half / most : S(0);
     const int u = place(d[after[axis]] * scale + half), v = place(d[after[after[axis]]] * scale + half);
     return ((2 * axis + (d[axis] < 0)) * across_ + u) * across_ + v;
   }
@@ -119,7 +135,7 @@ class HullCore {
 
   V center_ = V::Zero(), box_;
   int across_;
-  std::vector<V> highest_;  ///< of cell i: highest_[first_[i] .. first_[i + 1])
+  std::vector<Four> highest_;  ///< of cell i: highest_[first_[i] .. first_[i + 1])
   std::vector<int> first_;
 };
 
