@@ -38,7 +38,7 @@ class HullCore {
     V low = vertices.front(), high = low;
     for (const V& v : vertices) center_ += v, low = low.cwiseMin(v), high = high.cwiseMax(v);
     center_ /= static_cast<S>(vertices.size());
-    box_ = high - low;
+    box_ = (high - low).cwiseMax((high - low).maxCoeff() * std::numeric_limits<S>::epsilon());  // in float a thin hull may have no thickness left
     across_ = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(vertices.size()) / 3)), 1, 128);
     const int cells = 6 * across_ * across_;
     std::vector<int> spread{0};
@@ -63,6 +63,7 @@ class HullCore {
   }
 
   V center() const { return center_; }
+  std::size_t candidates() const { return 4 * highest_.size(); }  ///< of all cells
 
   V support(const V& d) const {
     const int* range = first_.data() + cell_of(box_.cwiseProduct(d));

@@ -110,6 +110,25 @@ TEST(Support, TheTableOfAHullFindsWhatAScanFinds) {
   }
 }
 
+/// A disc that is flat in float: every vertex of the rim is a candidate along its axis, and along no other direction.
+TEST(Support, ADiscWithoutThicknessInFloat) {
+  std::vector<AnyVector> points;
+  for (int i = 0; i < 400; ++i) points.push_back(any(V3(std::cos(6.28 * i / 400), std::sin(6.28 * i / 400), i % 2 == 0 ? 1e-11 : -1e-11)));
+  std::vector<Eigen::Vector3f> vertices;
+  const ConvexHull hull = convex_hull(points, 3);
+  for (const int i : hull.vertices) vertices.push_back(Eigen::Vector3d(points[static_cast<std::size_t>(i)][0], points[static_cast<std::size_t>(i)][1], 0).cast<float>());
+  ASSERT_EQ(hull.rank, 3);
+  const HullCore<float> core(vertices, hull);
+  EXPECT_LT(core.candidates(), 40 * vertices.size());
+  RandomScenes random(5);
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Vector3f d = Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).cast<float>();
+    float most = -10;
+    for (const auto& v : vertices) most = std::max(most, d.dot(v));
+    EXPECT_NEAR(d.dot(core.support(d)), most, 1e-6f);
+  }
+}
+
 TEST(Hull, KeepsExtremeVerticesOnly) {
   std::vector<AnyVector> points;
   for (int i = 0; i < 8; ++i) points.push_back(any(V3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
