@@ -234,7 +234,7 @@ class PairSolver {
     return true;
   }
 
-  /// Of the theorem in its plainest form: both boxes, one of them with no side zero.
+  /// A box of which no side is zero: for two of them the theorem is at its plainest.
   const BoxCore<D, S>* solid_box(const A& body) const {
     if constexpr (requires { body.core(); }) {
       const auto* box = std::get_if<BoxCore<D, S>>(&body.core());
