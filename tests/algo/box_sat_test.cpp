@@ -1,21 +1,18 @@
 // The separating axes of two boxes against exact arithmetic: parallel, nearly parallel, flat, long, far out, inside one another, with margins.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <random>
 
 #include "algo/solve.h"
 #include "recordings/recording.h"
 #include "shapes/world_support.h"
 #include "tests/oracle/exact_polytopes.h"
+#include "tests/support/random_scenes.h"
 
 namespace gjkdbg {
 namespace {
 
-int pairs() {
-  const char* given = std::getenv("GJKDBG_PAIRS");
-  return given ? std::atoi(given) : 5000;
-}
+int pairs() { return pairs_asked(5000); }
 
 class BoxPairs {
  public:

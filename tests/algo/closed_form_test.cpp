@@ -1,21 +1,18 @@
 // The closed form against exact arithmetic: points, segments, spheres and capsules, also parallel, crossing, coincident and of no length.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <random>
 
 #include "algo/solve.h"
 #include "recordings/recording.h"
 #include "shapes/error.h"
 #include "tests/oracle/exact_polytopes.h"
+#include "tests/support/random_scenes.h"
 
 namespace gjkdbg {
 namespace {
 
-int pairs() {
-  const char* given = std::getenv("GJKDBG_PAIRS");
-  return given ? std::atoi(given) : 20000;
-}
+int pairs() { return pairs_asked(20000); }
 
 /// Bodies whose cores are points and segments.
 class SegmentPairs {

@@ -4,7 +4,6 @@
 // GJKDBG_PAIRS sets how many polytope pairs (20000 unless set; the sanitizer run takes fewer).
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 
 #include "algo/contact.h"
 #include "algo/minkowski_difference.h"
@@ -17,10 +16,7 @@
 namespace gjkdbg {
 namespace {
 
-int pairs() {
-  const char* given = std::getenv("GJKDBG_PAIRS");
-  return given ? std::atoi(given) : 20000;
-}
+int pairs() { return pairs_asked(20000); }
 
 Result answer(Scene scene, Query query, MethodName name = MethodName::gjk) {
   scene.query = query;

@@ -2,6 +2,7 @@
 // edges, coplanar faces, exact touches), slivers, size ratios, offsets, identical bodies.
 #pragma once
 
+#include <cstdlib>
 #include <random>
 
 #include "shapes/scene.h"
@@ -36,6 +37,12 @@ class RandomScenes {
 
   std::mt19937_64 random_;
 };
+
+/// How many pairs a test of random ones takes: GJKDBG_PAIRS where it is set, as for the sanitizers, else `usual`.
+inline int pairs_asked(int usual) {
+  const char* given = std::getenv("GJKDBG_PAIRS");
+  return given ? std::atoi(given) : usual;
+}
 
 /// The largest length of a scene's bodies: what errors are measured against.
 double size_of(const Scene& scene);
