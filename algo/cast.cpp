@@ -78,14 +78,14 @@ class Caster {
         const Gap gap = gap_of(p, time);
         if (gap.distance <= target_) {
           // A pair that only slides along another does not meet it.
-          if (gap.bound <= sliding_ * speed(p) && (gap.distance > 0 || start_ > 0)) {
+          if (gap.closing <= sliding_ * speed(p) && (gap.distance > 0 || start_ > 0)) {
             p.open = false;
             continue;
           }
           meeting = {gap.distance <= 0 && time == 0 && start == 0 ? CastStatus::initially_overlapping : CastStatus::hit, time, p, gap};
           return meeting;
         }
-        if (gap.bound <= sliding_ * speed(p)) {
+        if (gap.closing <= sliding_ * speed(p)) {
           p.open = false;  // receding: this normal separates them for good, whichever way they turn
           continue;
         }
@@ -120,8 +120,7 @@ class Caster {
 
   double speed(const Pair& p) const {
     double s = velocity(p.first).norm() + velocity(p.second).norm();
-    for (const int i : {p.first, p.second})
-      if (turns(i)) s += spin(i).norm() * reach_[static_cast<std::size_t>(i)];
+    for (const int i : {p.first, p.second}) s += spin(i).norm() * reach_[static_cast<std::size_t>(i)];
     return s;
   }
 
@@ -139,17 +138,31 @@ class Caster {
 
   /// GJK at a time, in the trace, and how fast the gap closes at most.
   Gap gap_of(const Pair& p, double time) {
-    const Result r = solve_static(pair_at(p, time), inner_, trace_, numbers_, &simplices_[{p.shape_a, p.shape_b}]);
+    const Scene two = pair_at(p, time);
+    const Result r = solve_static(two, inner_, trace_, numbers_, &simplices_[{p.shape_a, p.shape_b}]);
     numbers_.next_run();
     supports_ += r.support_calls;
-    Gap gap{*r.signed_distance, *r.normal, *r.witness_a, *r.witness_b, 0};
-    gap.bound = closing(p, gap.normal);
+    Gap gap{*r.signed_distance, *r.normal, *r.witness_a, *r.witness_b};
+    gap.bound = gap.closing = closing(p, gap.normal);
+    if (settings_.name != MethodName::root_finding) gap.bound = bound_from_here(p, two, gap);
     if (trace_) (*trace_)(world::CastAdvanced{iterations_, start_ + time, {p.first, p.second}, gap.distance, gap.normal, gap.bound});
     return gap;
   }
 
   double closing(const Pair& p, const AnyVector& n) const {
     return (velocity(p.first) - velocity(p.second)).dot(n) + sideways(p.first, n) + sideways(p.second, n);
+  }
+
+  /// Near the top of its arc a rod hardly rises, though |w| times its reach does not know.
+  double bound_from_here(const Pair& p, const Scene& two, const Gap& gap) {
+    if (!(turns(p.first) || turns(p.second)) || !(gap.distance > 0)) return gap.closing;
+    TurningBound sum{(velocity(p.first) - velocity(p.second)).dot(gap.normal), 0};
+    for (const int i : {p.first, p.second}) {
+      const Body& body = two.bodies[i == p.first ? 0 : 1];
+      const TurningBound one = turning_bound(body, spin(i), i == p.first ? gap.normal : AnyVector(-gap.normal), reach_[static_cast<std::size_t>(i)]);
+      sum.speed += one.speed, sum.change += one.change, supports_ += turns(i);
+    }
+    return std::min(gap.closing, sum.until_closed(gap.distance));
   }
 
   /// |w x n| times the reach; in the plane w is across n.
@@ -163,10 +176,10 @@ class Caster {
 
   /// Root finding: the time from now until the gap along this normal closes to within the target; supports alone, no GJK.
   double root(const Pair& p, double time, const Gap& gap) {
-    if (!turns(p.first) && !turns(p.second)) return (gap.distance - target_ / 2) / gap.bound;  // the gap along n falls evenly
+    if (!turns(p.first) && !turns(p.second)) return (gap.distance - target_ / 2) / gap.closing;  // the gap along n falls evenly
     double ahead = 0, distance = gap.distance;
     for (int i = 0; i < 256 && start_ + time + ahead < 1; ++i) {
-      ahead += (distance - target_ / 4) / gap.bound;
+      ahead += (distance - target_ / 4) / gap.closing;
       const Scene two = pair_at(p, time + ahead);
       const WorldSupport a(two.bodies[0], dimension_), b(two.bodies[1], dimension_);
       supports_ += 2;
@@ -184,7 +197,7 @@ class Caster {
     for (const Pair& p : pairs_) {
       Meeting m = dimension_ == 1 ? ray<1>(p) : dimension_ == 2 ? ray<2>(p) : ray<3>(p);
       if (m.status == CastStatus::miss || m.time > best.time) continue;
-      if (m.status == CastStatus::hit && m.time <= 0 && m.gap.bound <= sliding_ * speed(p)) continue;
+      if (m.status == CastStatus::hit && m.time <= 0 && m.gap.closing <= sliding_ * speed(p)) continue;
       if (best.status == CastStatus::miss || m.time < best.time) best = m;
     }
     return best;
@@ -227,8 +240,8 @@ class Caster {
     if (m.status == CastStatus::miss) return m;
     // The places and the normal at that time, by GJK: the ray's own are as exact as its last plane.
     const Result r = solve_static(pair_at(p, m.time), inner_, nullptr, numbers_);
-    m.gap = {*r.signed_distance, *r.normal, *r.witness_a, *r.witness_b, 0};
-    m.gap.bound = closing(p, m.gap.normal);
+    m.gap = {*r.signed_distance, *r.normal, *r.witness_a, *r.witness_b};
+    m.gap.bound = m.gap.closing = closing(p, m.gap.normal);
     return m;
   }
 

@@ -17,7 +17,8 @@ struct Pair {
 struct Gap {
   double distance = 0;
   AnyVector normal, witness_a, witness_b;
-  double bound = 0;  ///< how fast it closes at most
+  double closing = 0;  ///< how fast it closes at most along the normal, whichever way the bodies turn
+  double bound = 0;    ///< how fast until they can meet; at most `closing`
 };
 
 /// What a body was turned off by.

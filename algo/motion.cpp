@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shapes/world_support.h"
+
 namespace gjkdbg {
 
 AnyMatrix rotation_by(const AnyVector& angular_velocity, double time, int dimension) {
@@ -66,6 +68,15 @@ double reach_of(const Shape& shape, int dimension) {
     return most + shape.margin;
   }
   return dimension == 1 ? reach<1>(shape) : dimension == 2 ? reach<2>(shape) : reach<3>(shape);
+}
+
+TurningBound turning_bound(const Body& body, const AnyVector& angular_velocity, const AnyVector& n, double reach) {
+  if (angular_velocity.size() == 0 || angular_velocity.isZero(0)) return {};
+  AnyVector across = n;
+  if (n.size() == 2) across = Eigen::Vector2d(n[1], -n[0]) * angular_velocity[0];
+  else across = Eigen::Vector3d(n).cross(Eigen::Vector3d(angular_velocity));
+  const WorldSupport support(body, static_cast<int>(n.size()));
+  return {across.dot(support(across, true) - body.pose.position), angular_velocity.squaredNorm() * reach};
 }
 
 Settings static_settings(const Settings& settings) {

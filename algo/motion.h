@@ -1,6 +1,8 @@
 // Bodies that move: where they are at a time, and the static query that everything about motion is made of.
 #pragma once
 
+#include <cmath>
+
 #include "algo/solve.h"
 #include "algo/world_trace.h"
 
@@ -24,6 +26,21 @@ std::vector<Shape> convex_parts(const Shape& shape);
 
 /// How far the body reaches from its pose's position.
 double reach_of(const Shape& shape, int dimension);
+
+/// How far a turning body comes forward along a unit vector at most in a time t: speed t + change t^2 / 2.
+struct TurningBound {
+  double speed = 0, change = 0;
+  /// The mean speed at most until a gap d > 0 closes. It is open until t = 2 d / (s + sqrt(s^2 + 2 k d)), and shorter gaps close no slower, as t is
+  /// concave in d. With s < 0 the other form of the root cancels nothing.
+  double until_closed(double gap) const {
+    const double root = std::sqrt(speed * speed + 2 * change * gap);
+    return speed >= 0 ? (speed + root) / 2 : gap * change / (root - speed);
+  }
+};
+/// From where `body` is now; its velocity apart. 2D and 3D; zero for a body that does not turn. A point r of it, seen from its position, moves along
+/// n by n . (w x r) = r . (n x w), of which the support along n x w is the most; the second derivative is at most |w|^2 |r|, with `reach` the
+/// largest |r|.
+TurningBound turning_bound(const Body& body, const AnyVector& angular_velocity, const AnyVector& n, double reach);
 
 /// The settings for the static queries inside a cast or a simulation.
 Settings static_settings(const Settings& settings);
