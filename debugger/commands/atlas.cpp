@@ -25,10 +25,10 @@ struct AtlasCommand {
 
   int run() const {
     const auto kept = gate.empty() ? std::map<std::pair<std::string, std::string>, int>() : read_gate(gate);
-    const std::vector<Variant> chosen = variants(methods);
+    const std::vector<Variant> columns = chosen(variants(true), methods);
     make_folder(output);
     LabProgress progress;
-    const Atlas atlas = make_atlas(quick, chosen, std::ref(progress));
+    const Atlas atlas = make_atlas(quick, columns, std::ref(progress));
     const std::filesystem::path folder(output);
     write_output((folder / "atlas.csv").string(), atlas_csv(atlas));
     write_output((folder / "atlas.json").string(), atlas_json(atlas));

@@ -49,7 +49,7 @@ struct ChartCommand {
   std::string output = "chart";
 
   int run() const {
-    (void)variants(options.methods), (void)chart_families(0, options.families);  // a name there is not: before anything is made
+    (void)chosen(variants(), options.methods), (void)chart_families(0, options.families);  // a name there is not: before anything is made
     make_folder(output);
     LabProgress progress;
     const Chart chart = make_chart(options, std::ref(progress));

@@ -59,10 +59,39 @@ Answered ask_theirs(const Scene& scene, const Peer& peer) {
   return {answer.overlap, answer.signed_distance.has_value(), answer.signed_distance.value_or(0), 0, 0, false, false};
 }
 
+/// Judges a cast. At the time it says the bodies are surely apart yet, and no farther than the tolerance from touching; `target` is that gap. What
+/// grazes by less may count as a hit or a miss.
+Verdict judge_cast(const Result& r, const ExactMotion& exact, double scale, double target, double unit, double& error) {
+  error = 0;
+  if (r.status == "iteration_limit") return Verdict::gave_up;
+  const bool hit = exact.least <= 0;
+  if (r.intersecting != hit) {
+    if (std::abs(exact.least) <= target) return Verdict::right_within_rounding;
+    return error = std::abs(exact.least) / scale, Verdict::wrong_class;
+  }
+  if (!hit) return Verdict::right;
+  const double gap = exact.gap(*r.time), rounding = 64 * unit * scale;
+  if (!std::isfinite(gap)) return Verdict::not_finite;
+  error = std::abs(gap) / scale;
+  if (gap < -rounding) return Verdict::lied;
+  return gap <= target + rounding ? Verdict::right : Verdict::wrong_value;
+}
+
 struct Judged {
   Verdict verdict = Verdict::not_applicable;
   double error = 0, value = 0;
 };
+
+Judged judge_cast_case(const Variant& variant, const AtlasCase& one) {
+  Judged out;
+  if (variant.peer || !applies(variant, one.scene)) return out;
+  const Settings settings = resolve_settings(variant.method, one.scene);
+  const Result r = solve(one.scene, settings);
+  const double scale = std::max(scene_size(one.scene), (one.scene.bodies[1].pose.position - one.scene.bodies[0].pose.position).norm());
+  const double unit = settings.scalar == Scalar::float_precision ? 1.2e-7 : 2.3e-16;
+  out.verdict = judge_cast(r, one.motion, scale, 2 * settings.tolerance * scale, unit, out.error);
+  return out.value = r.intersecting ? *r.time : std::numeric_limits<double>::infinity(), out;
+}
 
 Judged judge_case(const Variant& variant, const Scene& scene, double exact) {
   Judged out;
@@ -100,7 +129,9 @@ std::string cause(const Variant& variant, Verdict verdict) {
 std::string sentence(const AtlasFamily& family, const Variant& variant, const AtlasCell& cell) {
   static constexpr std::array<const char*, 9> said{"", "", "gives up", "is off, and its bounds admit it", "is off, and says it is not", "mistakes apart for overlapping", "answers no number", "does not come back", ""};
   std::string verdict = said[static_cast<std::size_t>(cell.verdict)];
-  if (cell.verdict == Verdict::wrong_class && cell.exact <= 0) verdict = "mistakes overlapping for apart";
+  const bool cast = cell.scene.query == Query::cast, missed = cast ? std::isfinite(cell.exact) : cell.exact <= 0;
+  if (cell.verdict == Verdict::wrong_class && missed) verdict = "mistakes overlapping for apart";
+  if (cell.verdict == Verdict::lied && cast) verdict = "stops too late";
   return variant.name + " " + verdict + " (" + number(cell.value) + " for " + number(cell.exact) + "): " + cause(variant, cell.verdict) + ". Here: " + family.what + ".";
 }
 
@@ -151,7 +182,7 @@ AtlasCell sweep(const AtlasFamily& family, const Variant& variant) {
   cell.verdict = Verdict::not_applicable;
   bool first = true;
   for (const AtlasCase& one : family.cases) {
-    const Judged judged = judge_case(variant, one.scene, one.exact);
+    const Judged judged = one.motion.gap ? judge_cast_case(variant, one) : judge_case(variant, one.scene, one.exact);
     if (judged.verdict == Verdict::not_applicable) continue;
     if (first || judged.verdict > cell.verdict || (judged.verdict == cell.verdict && judged.error > cell.worst_error))
       cell = {judged.verdict, judged.error, one.parameter, judged.value, one.exact, one.scene, ""};
@@ -159,7 +190,7 @@ AtlasCell sweep(const AtlasFamily& family, const Variant& variant) {
   }
   if (!failed(cell.verdict)) return cell;
   cell.why = sentence(family, variant, cell);
-  if (cell.verdict != Verdict::crashed) cell.scene = shrunk(variant, cell.scene, cell.verdict);
+  if (cell.verdict != Verdict::crashed && cell.scene.query != Query::cast) cell.scene = shrunk(variant, cell.scene, cell.verdict);
   return cell;
 }
 

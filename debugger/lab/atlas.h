@@ -24,10 +24,17 @@ enum class Verdict {
 inline constexpr std::array<const char*, 9> verdict_names{"right", "right-within-rounding", "gave-up", "wrong-value", "lied", "wrong-class", "not-finite", "crashed", "not-applicable"};
 inline bool failed(Verdict verdict) { return verdict >= Verdict::gave_up && verdict != Verdict::not_applicable; }
 
+/// What is known of two bodies in motion, for a cast.
+struct ExactMotion {
+  std::function<double(double)> gap;  ///< between the bodies, by time
+  double least = 0;                   ///< over the whole motion; negative: they would pass through each other
+};
+
 struct AtlasCase {
   double parameter = 0;
   Scene scene;
-  double exact = 0;  ///< signed distance of the rounded input, to a few roundings
+  double exact = 0;  ///< signed distance of the rounded input, to a few roundings; of a cast, the time they meet, infinite when they do not
+  ExactMotion motion{};
 };
 
 struct AtlasFamily {
@@ -35,6 +42,8 @@ struct AtlasFamily {
   std::vector<AtlasCase> cases;
 };
 std::vector<AtlasFamily> atlas_families(bool quick);
+/// T1: bodies in motion that graze, or just miss.
+std::vector<AtlasFamily> moving_families(bool quick);
 
 struct AtlasCell {
   Verdict verdict = Verdict::right;

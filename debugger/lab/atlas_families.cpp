@@ -42,6 +42,9 @@ Scene pair(Body a, Body b) {
   return scene;
 }
 
+/// The rotation of an integer quaternion: its elements are fractions with the quaternion's squared length below.
+AnyMatrix rotation(int w, int x, int y, int z) { return Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix(); }
+
 std::vector<double> gaps(bool quick) {
   std::vector<double> out{0};
   for (const double g : {0x1p-52, 1e-15, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-3})
@@ -103,6 +106,39 @@ void degenerate(std::vector<AtlasFamily>& out, bool quick) {
   out.push_back(slab), out.push_back(flat), out.push_back(lines), out.push_back(needles), out.push_back(sliver);
 }
 
+/// A cylinder that pokes through a triangle far larger than itself leaves across the triangle's plane: as deep as its support, r |a_xy| + h |a_z| with
+/// a its axis, lies below the plane.
+AtlasFamily pierced(bool quick) {
+  AtlasFamily family{"R2", "a small cylinder through a larger and larger triangle: what begins at its middle begins far away", {}};
+  const double radius = 0.02, half = 0.07;
+  for (const double k : powers(1e-2, 1e4, quick))
+    for (const double height : {0.000361, 0.03}) {
+      Scene scene = pair(points({vec(0, 0, 0), vec(100 * k, 320 * k, 0), vec(0, 320 * k, 0)}), {"", {Cylinder{radius, half, 2}, 0}, identity_pose(3)});
+      scene.bodies[1].pose.position = vec(20 * k, 200 * k, height), scene.bodies[1].pose.matrix = rotation(5, 1, 2, 0);
+      const AnyVector axis = scene.bodies[1].pose.matrix.col(2);
+      family.cases.push_back({k, scene, height - (radius * std::hypot(axis[0], axis[1]) + half * std::abs(axis[2]))});
+    }
+  return family;
+}
+
+/// The pairs that broke FCL, by the number. The depth of 395 is exact SAT's in rational numbers; the others lie along axes.
+AtlasFamily replayed() {
+  AtlasFamily family{"E2", "pairs that broke FCL: faces of no area, vertices in line with an edge, the wrong feature", {}};
+  Scene plate = pair(box(vec(0.23, 0.24, 0.005), vec(-0.721, -0.772, 0.81)), box(vec(0.0247605, 0.073, 0.03625), vec(-0.42677133002999, -0.76596851247747, 0.80746731400091)));
+  plate.bodies[1].pose.matrix = Eigen::Matrix3d{{0.10758262492982967, -0.662488185001523, -0.7413065381787722},
+                                                {0.2268218488512493, -0.7096140407752535, 0.6670830248314807},
+                                                {-0.967976150376087, -0.23991106241272975, 0.07392465377048896}};
+  Scene can = pair(cube(vec(0, 0, 0), 0.5), {"", {Cylinder{0.25, 0.125, 2}, 0}, identity_pose(3)});
+  can.bodies[1].pose.position = vec(0.2, 0, 0);
+  family.cases = {{388, pair(sphere(0.06, vec(1.7855e-10, 0.04, 0.33)), cube(vec(0.05, 0.15, 0.35), 0.05)), (0.15 - 0.05 - 0.04) - 0.06},
+                  {395, plate, -0.01340861377399064},
+                  {395.5, can, -0.55},
+                  {398, pair(box(vec(0.307, 1.5, 0.185), vec(-0.675, 0, 0.9115)), box(vec(0.247, 0.276, 0.005), vec(-0.692, 0, 0.935))), (0.935 - 0.9115) - (0.185 + 0.005)},
+                  {428, pair(box(vec(0.1, 0.165, 0.05), vec(-0.071, -0.772, 0.8)), box(vec(0.226, 0.135, 0.3), vec(0.121, -0.787696056927277, 0.5342204419612515))),
+                   (0.8 - 0.5342204419612515) - (0.05 + 0.3)}};
+  return family;
+}
+
 void scales(std::vector<AtlasFamily>& out, bool quick) {
   AtlasFamily ratio{"R1", "a small box on a wide slab: tolerances of one are blind to the other", {}};
   for (const double k : powers(1, 1e6, quick)) {
@@ -113,11 +149,8 @@ void scales(std::vector<AtlasFamily>& out, bool quick) {
   for (const double t : powers(1, 1e15, quick)) far.cases.push_back({t, pair(cube(vec(t, t, t)), cube(vec(t + 2.5, t, t))), ((t + 2.5) - t) - 2});
   AtlasFamily size{"W2", "tiny and huge scenes: absolute tolerances", {}};
   for (const double s : powers(1e-12, 1e12, quick)) size.cases.push_back({s, pair(cube(vec(0, 0, 0), s), cube(vec(0, 0, 1.9 * s), s)), 1.9 * s - 2 * s});
-  out.push_back(ratio), out.push_back(far), out.push_back(size);
+  out.push_back(ratio), out.push_back(far), out.push_back(size), out.push_back(pierced(quick)), out.push_back(replayed());
 }
-
-/// The rotation of an integer quaternion: its elements are fractions with the quaternion's squared length below.
-AnyMatrix rotation(int w, int x, int y, int z) { return Eigen::Quaterniond(w, x, y, z).normalized().toRotationMatrix(); }
 
 /// Turned cubes. The first two have edges of length 2 at height 1.4 (0.6 + 0.8), across one another; the next two share their axes.
 void turned(std::vector<AtlasFamily>& out, bool quick) {
@@ -139,7 +172,15 @@ void turned(std::vector<AtlasFamily>& out, bool quick) {
       for (int i = 0; i < 3; ++i) along += static_cast<long double>(turn(i, 2)) * static_cast<long double>(scene.bodies[1].pose.position[i]);
       tilted.cases.push_back({size, scene, static_cast<double>(along - static_cast<long double>(size))});
     }
-  out.push_back(edges), out.push_back(tilted);
+  AtlasFamily thin{"K7", "thin plates graze, turned in their plane: the gap is below the usual tolerance of 1e-6", {}};
+  for (const double t : powers(1e-1, 1e-6, quick))
+    for (const double g : {7.6932723539930488e-07, -7.6932723539930488e-07}) {
+      const double apart = 2 * t + g;  // the gap, or less, of MuJoCo's thin boxes; the difference below is exact
+      Scene scene = pair(box(vec(0.25, 0.25, t), vec(0, 0, 0)), box(vec(0.25, 0.25, t), vec(0.01, -0.02, apart)));
+      scene.bodies[1].pose.matrix = rotation(3, 0, 0, 1);
+      thin.cases.push_back({t, scene, apart - 2 * t});
+    }
+  out.push_back(edges), out.push_back(tilted), out.push_back(thin);
 }
 
 void centred(std::vector<AtlasFamily>& out, bool quick) {
@@ -224,6 +265,7 @@ std::vector<AtlasFamily> atlas_families(bool quick) {
   fans(families, quick);
   ellipsoids(families, quick);
   retold(families, quick);
+  for (AtlasFamily& family : moving_families(quick)) families.push_back(std::move(family));
   std::stable_sort(families.begin(), families.end(), [](const AtlasFamily& a, const AtlasFamily& b) { return a.name < b.name; });
   return families;
 }

@@ -10,7 +10,7 @@
 
 namespace gjkdbg {
 
-std::vector<Variant> variants() {
+std::vector<Variant> variants(bool casts) {
   std::vector<Variant> out;
   for (const Scalar scalar : {Scalar::double_precision, Scalar::float_precision}) {
     const std::string suffix = scalar == Scalar::double_precision ? "" : ", float";
@@ -28,23 +28,23 @@ std::vector<Variant> variants() {
     add("MPR", MethodName::mpr);
     add("SAT", MethodName::sat);
     add("closed form", MethodName::closed_form);
+    if (casts) add("root finding", MethodName::root_finding), add("ray cast", MethodName::ray_cast);
   }
   for (const Peer& peer : peers()) out.push_back({peer.name, {}, &peer});
   return out;
 }
 
-std::vector<Variant> variants(const std::vector<std::string>& names) {
-  const std::vector<Variant> all = variants();
+std::vector<Variant> chosen(const std::vector<Variant>& all, const std::vector<std::string>& names) {
   if (names.empty()) return all;
   const auto lower = [](std::string text) {
     for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     return text;
   };
-  std::vector<bool> chosen(all.size(), false);
+  std::vector<bool> wanted(all.size(), false);
   for (const std::string& name : names) {
     bool found = false;
     for (std::size_t i = 0; i < all.size(); ++i)
-      if (lower(name) == "default" ? i == 0 : lower(all[i].name).starts_with(lower(name))) chosen[i] = found = true;
+      if (lower(name) == "default" ? i == 0 : lower(all[i].name).starts_with(lower(name))) wanted[i] = found = true;
     if (found) continue;
     std::string list = "default";
     for (const Variant& v : all) list += "; " + v.name;
@@ -52,7 +52,7 @@ std::vector<Variant> variants(const std::vector<std::string>& names) {
   }
   std::vector<Variant> out;
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (chosen[i]) out.push_back(all[i]);
+    if (wanted[i]) out.push_back(all[i]);
   return out;
 }
 

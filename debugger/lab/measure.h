@@ -16,11 +16,12 @@ struct Variant {
   Method method;               ///< of ours
   const Peer* peer = nullptr;  ///< of another library
 };
-/// Every method for signed distances there is, in both scalars, and every library this was built with.
-std::vector<Variant> variants();
-/// Those whose names begin with one of `names`, whatever the case ("default": the default method alone); all when there are none.
+/// Every method for signed distances there is, in both scalars, and every library this was built with; `casts`: and the methods that only casts
+/// have. (Of a cast GJK's are conservative advancement, with GJK inside.)
+std::vector<Variant> variants(bool casts = false);
+/// Those whose names begin with one of `names`, whatever the case ("default": the first alone); all when there are none.
 /// Throws Error for a name that none has.
-std::vector<Variant> variants(const std::vector<std::string>& names);
+std::vector<Variant> chosen(const std::vector<Variant>& all, const std::vector<std::string>& names);
 /// Whether the method takes such bodies at all. (SAT: polytopes.) Libraries are asked by `Peer::prepare`.
 bool applies(const Variant& variant, const Scene& scene);
 
