@@ -54,10 +54,14 @@ TEST_F(MethodPanel, StartsAlongAGivenDirection) {
 }
 
 TEST_F(MethodPanel, OffersOnlyMethodsThatFit) {
-  choose(536, 3);  // for boxes: gjk, gjk-accelerated, mpr, sat
-  EXPECT_EQ(session.recording().settings.name, MethodName::sat);
+  choose(536, 3);  // for boxes: gjk, gjk-accelerated, mpr, sat, fastest
+  EXPECT_EQ(session.scene().method.name, MethodName::sat);
+  choose(536, 0);
   choose(536, 4);
-  EXPECT_EQ(session.recording().settings.name, MethodName::sat) << "the list ends there";
+  EXPECT_EQ(session.scene().method.name, MethodName::fastest);
+  EXPECT_EQ(session.recording().settings.name, MethodName::sat) << "the fastest for boxes";
+  choose(536, 5);
+  EXPECT_EQ(session.scene().method.name, MethodName::fastest) << "the list ends there";
   host.press(Key::escape);
   app.open_gallery("closed-form-capsules");
   app.left_tab = App::LeftTab::scene;

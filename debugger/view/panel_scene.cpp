@@ -165,14 +165,15 @@ bool choice(const Theme& theme, const char* label, int& value, const Names& name
   return edited;
 }
 
-/// The methods that can answer the scene's query on its bodies.
+/// The methods that can answer the scene's query on its bodies; `fastest` stands for one of them where there is a choice.
 std::vector<int> possible_methods(const SceneFile& file) {
   std::vector<int> out;
   for (std::size_t i = 0; i < method_names.size(); ++i) {
     Method m = file.method;
     change_name(m, static_cast<MethodName>(i));
     try {
-      if (resolve_settings(m, file.scene).name == *m.name) out.push_back(static_cast<int>(i));
+      const bool fastest = m.name == MethodName::fastest && !file.scene.motion;
+      if (resolve_settings(m, file.scene).name == *m.name || fastest) out.push_back(static_cast<int>(i));
     } catch (const Error&) {
     }
   }
@@ -200,7 +201,8 @@ bool method(App& app, SceneFile& next) {
   const Settings& now = app.session.recording().settings;
   section(theme, "METHOD");
   bool edited = false;
-  int query = static_cast<int>(next.scene.query), name = static_cast<int>(now.name), scalar = static_cast<int>(now.scalar);
+  int query = static_cast<int>(next.scene.query), scalar = static_cast<int>(now.scalar);
+  int name = static_cast<int>(next.method.name == MethodName::fastest ? MethodName::fastest : now.name);
   if ((next.scene.motion ? choice(theme, "query", query, query_names, {query}) : choice(theme, "query", query, query_names, {0, 1, 2, 3}))) {
     next.scene.query = static_cast<Query>(query), edited = true;
     if (query != 0 && now.name == MethodName::gjk_boolean) next.method.name = MethodName::gjk;
