@@ -3,16 +3,10 @@
 #include <limits>
 
 #include "debugger/lab/atlas.h"
+#include "debugger/lab/motion_chart.h"
 
 namespace gjkdbg {
 namespace {
-
-Body moving(const Shape& shape, const Vector<3, double>& position, const Vector<3, double>& velocity, const Vector<3, double>& spin) {
-  Body body{"", shape, identity_pose(3), Motion{}};
-  body.pose.position = position;
-  body.motion->velocity = velocity, body.motion->angular_velocity = spin;
-  return body;
-}
 
 Scene cast_of(Body a, Body b) {
   a.name = "A", b.name = "B";

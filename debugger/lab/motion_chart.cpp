@@ -21,13 +21,6 @@ class Numbers {
   std::mt19937_64 engine_{7};
 };
 
-Body moving(const Shape& shape, const Vector<3, double>& position, const Vector<3, double>& velocity, const Vector<3, double>& spin) {
-  Body b{"", shape, identity_pose(3), Motion{}};
-  b.pose.position = position;
-  b.motion->velocity = velocity, b.motion->angular_velocity = spin;
-  return b;
-}
-
 double gap(const Scene& scene, double time) {
   Scene two = scene;
   two.query = Query::penetration;
@@ -46,6 +39,13 @@ double true_time(const Scene& scene) {
 }
 
 }  // namespace
+
+Body moving(const Shape& shape, const Vector<3, double>& position, const Vector<3, double>& velocity, const Vector<3, double>& spin) {
+  Body b{"", shape, identity_pose(3), Motion{}};
+  b.pose.position = position;
+  b.motion->velocity = velocity, b.motion->angular_velocity = spin;
+  return b;
+}
 
 std::vector<CastScene> cast_scenes(const std::string& family, int count) {
   Numbers number;

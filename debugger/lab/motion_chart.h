@@ -19,6 +19,9 @@ struct MotionPoint {
 
 std::vector<MotionPoint> motion_points(bool quick);
 
+/// A body in space, where it is and how it moves.
+Body moving(const Shape& shape, const Vector<3, double>& position, const Vector<3, double>& velocity, const Vector<3, double>& spin);
+
 struct CastScene {
   Scene scene;
   double time;  ///< of impact, by bisection
