@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cmath>
+#include <numeric>
 
 #include "algo/polytope.h"
 #include "algo/trace.h"
@@ -330,8 +331,11 @@ class Epa {
       const Growth& growth = polytope_.growth();
       auto& edges = workspace_.edges;
       edges.clear();
-      for (const auto& e : growth.horizon) edges.push_back({vertex_number(e[0]), vertex_number(e[1])});
-      describe(growth.added);
+      if constexpr (D == 2) edges.push_back({vertex_number(growth.horizon[0].edge[0]), vertex_number(growth.horizon[1].edge[0])});
+      else for (const Ridge& r : growth.horizon) edges.push_back({vertex_number(r.edge[0]), vertex_number(r.edge[1])});
+      std::vector<int> added(static_cast<std::size_t>(growth.added));
+      std::iota(added.begin(), added.end(), growth.first_added);
+      describe(added);
       const double radius = static_cast<double>(difference_.radius());
       const double lower = static_cast<double>(polytope_.faces()[polytope_.nearest()].distance - floor_);
       trace_(PolytopeGrown<V, Viewed>{result_.iterations, vertex, growth.removed, edges, workspace_.face_events, lower + radius,

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "algo/orientation.h"
@@ -27,17 +28,25 @@ namespace gjkdbg {
 template <int D, class S>
 struct PolytopeFace {
   std::array<int, D> vertices;     ///< indices into points(); counter-clockwise seen from outside
-  std::array<int, D> neighbours;   ///< 3D: across edge (vertices[i], vertices[i+1]); 2D: before, after; 1D: unused
+  std::array<int, D> neighbours;   ///< 3D: across edge (vertices[i], vertices[i+1]), as 4 times the face and its edge; 2D: before, after; 1D: unused
   Vector<D, S> normal;             ///< unit, outwards; zero for a face without area
   S distance;                      ///< of the plane from the origin, negative: the origin is outside
   bool removed = false;
   int asked = 0;                   ///< when a new point last asked whether it sees this face, and what it heard: see Polytope::find_seen
+  PolytopeFace() {}                // leaves the numbers unset: they are written next
 };
 
-/// What one growth did; faces as numbers, the horizon as indices into points().
+/// An edge between a face that a point sees and one that it does not.
+struct Ridge {
+  std::array<int, 2> edge;  ///< 3D: from, to as the seen face has it; 2D: edge[0] is the shared vertex
+  int outside;              ///< the face that stays; 3D: 4 times the face and its edge
+};
+
+/// What one growth did; faces as numbers, the horizon's vertices as indices into points().
 struct Growth {
-  std::vector<int> removed, added;
-  std::vector<std::array<int, 2>> horizon;
+  std::vector<int> removed;
+  std::vector<Ridge> horizon;    ///< 3D: one after the other around the hole; 2D: where the hole begins and ends
+  int first_added = 0, added = 0;  ///< new faces: the first one's number, how many
 };
 
 template <int D, class S>
@@ -47,7 +56,7 @@ class Polytope {
   using Point = SupportPoint<D, S>;
   using Face = PolytopeFace<D, S>;
 
-  void clear() { points_.clear(), faces_.clear(), heap_.clear(), far_ = std::numeric_limits<S>::infinity(), reach_ = 0, growths_ = 0; }
+  void clear() { points_.clear(), faces_.clear(), open_.clear(), met_.clear(), far_ = std::numeric_limits<S>::infinity(), reach_ = 0, growths_ = 0; }
   int add_point(const Point& point) {
     points_.push_back(point);
     reach_ = std::max(reach_, point.w.cwiseAbs().maxCoeff());
@@ -57,15 +66,16 @@ class Polytope {
   /// Starts from D + 1 points that span the space (any orientation).
   void start(std::array<int, D + 1> simplex);
 
-  /// The face with the smallest signed distance; -1 when there is none.
+  /// The face with the smallest signed distance, of two the older one; -1 when there is none. One look at all that may answer: there are few, and
+  /// which of them is nearer is nothing a processor can guess, as it would have to in a heap.
   int nearest() {
-    while (!heap_.empty() && faces_[heap_.front().face].removed) pop();
-    if (heap_.empty() && far_ < std::numeric_limits<S>::infinity()) {  // more was left out than should have been: rounding
+    int face = nearest_open();
+    if (face < 0 && far_ < std::numeric_limits<S>::infinity()) {  // more was left out than should have been: rounding
       far_ = std::numeric_limits<S>::infinity();
-      for (int i = 0; i < static_cast<int>(faces_.size()); ++i)
-        if (!faces_[i].removed) push(i);
+      for (int i = 0; i < static_cast<int>(faces_.size()); ++i) open_.push_back({faces_[i].distance, i});
+      face = nearest_open();
     }
-    return heap_.empty() ? -1 : heap_.front().face;
+    return face;
   }
   /// Faces farther out than this will not be asked for: a nearer one answers.
   void leave_out_beyond(S distance) { far_ = distance; }
@@ -82,45 +92,42 @@ class Polytope {
   std::array<S, D> weights(const std::array<int, D>& vertices, const V& normal, bool wide) const;
 
  private:
-  struct HeapEntry {
+  struct OpenFace {
     S distance;
     int face;
-    bool operator<(const HeapEntry& o) const { return distance > o.distance || (distance == o.distance && face > o.face); }
   };
 
   /// Sine of the angle between a face's shorter edges below which its normal is worth less than 1e-13 in double.
   static constexpr S thin = S(1e-3);
 
   const V& at(int i) const { return points_[i].w; }
-  void push(int face) {
-    heap_.push_back({faces_[face].distance, face});
-    std::push_heap(heap_.begin(), heap_.end());
-  }
-  void pop() {
-    std::pop_heap(heap_.begin(), heap_.end());
-    heap_.pop_back();
+  /// The nearest of open_, which loses what was removed or lies too far out, and keeps its order.
+  int nearest_open() {
+    OpenFace* kept = open_.data();
+    for (const OpenFace& entry : open_) *kept = entry, kept += !faces_[entry.face].removed & (entry.distance <= far_);
+    open_.resize(static_cast<std::size_t>(kept - open_.data()));
+    S least = std::numeric_limits<S>::infinity();
+    for (const OpenFace& entry : open_) least = std::min(least, entry.distance);
+    for (const OpenFace& entry : open_)
+      if (entry.distance == least) return entry.face;
+    return -1;
   }
   int add_face(const std::array<int, D>& vertices, const std::array<int, D>& neighbours);
   void set_plane(Face& face) const;
   void set_plane(Face& face, const V& edge, const V& next, S squared) const;
   bool sees(int p, const Face& face) const;
   void find_seen(int p, int seen);
-  bool order_horizon();
+  bool one_horizon();
   void close(int p);
 
   std::vector<Point> points_;
   std::vector<Face> faces_;
-  std::vector<HeapEntry> heap_;
+  std::vector<OpenFace> open_;  ///< faces that may be asked for
   S far_ = std::numeric_limits<S>::infinity();
   S reach_ = 0;  ///< largest coordinate of a point, in magnitude
   Growth growth_;
-  struct Ridge {
-    std::array<int, 2> edge;  ///< 3D: from, to as the removed face had it; 2D: edge[0] is the shared vertex
-    int outside;              ///< the face that stays
-  };
-  std::vector<Ridge> horizon_;
-  std::vector<Ridge> loop_;    ///< 3D: the horizon in order
-  std::vector<int> leaves_;    ///< the ridge that begins at a point
+  std::vector<int> walk_;  ///< 3D: edges still to cross, as neighbours are
+  std::vector<int> met_;   ///< 3D: the growth in whose horizon a point was last
   int growths_ = 0;
 };
 
@@ -196,7 +203,7 @@ int Polytope<D, S>::add_face(const std::array<int, D>& vertices, const std::arra
   face.vertices = vertices, face.neighbours = neighbours;
   if constexpr (D == 1) face.normal[0] = neighbours[0] > 0 ? S(1) : S(-1);
   set_plane(face);
-  if (face.distance <= far_) push(number);
+  open_.push_back({face.distance, number});
   return number;
 }
 
@@ -212,93 +219,106 @@ void Polytope<D, S>::start(std::array<int, D + 1> s) {
   } else {
     // Seen from outside, 0 2 1 is counter-clockwise when 3 lies on the side from which 0 1 2 is.
     if (orientation<S>(at(s[0]), at(s[1]), at(s[2]), at(s[3])) < 0) std::swap(s[1], s[2]);
-    add_face({s[0], s[2], s[1]}, {3, 2, 1});
-    add_face({s[0], s[1], s[3]}, {0, 2, 3});
-    add_face({s[1], s[2], s[3]}, {0, 3, 1});
-    add_face({s[2], s[0], s[3]}, {0, 1, 2});
+    constexpr auto across = [](int face, int edge) { return 4 * face + edge; };
+    add_face({s[0], s[2], s[1]}, {across(3, 0), across(2, 0), across(1, 0)});
+    add_face({s[0], s[1], s[3]}, {across(0, 2), across(2, 2), across(3, 1)});
+    add_face({s[1], s[2], s[3]}, {across(0, 1), across(3, 2), across(1, 1)});
+    add_face({s[2], s[0], s[3]}, {across(0, 0), across(1, 2), across(2, 1)});
   }
 }
 
 /// The connected faces that p sees, and the ridges around them. Every face is asked once: `asked` becomes 2 k + 1 (seen) or 2 k (not) in growth k.
+/// In space the walk goes from face to face counter-clockwise from the edge it came across, and comes to the ridges in their order around the hole.
 template <int D, class S>
 void Polytope<D, S>::find_seen(int p, int seen) {
   const int not_seen = 2 * ++growths_;
-  growth_.removed.assign(1, seen);
-  horizon_.clear();
+  growth_.removed.clear(), growth_.removed.push_back(seen);
+  growth_.horizon.clear();
   faces_[seen].asked = not_seen + 1;
-  if constexpr (D == 1) return;
-  for (std::size_t k = 0; k < growth_.removed.size(); ++k) {
-    const Face& face = faces_[growth_.removed[k]];
-    for (int i = 0; i < D; ++i) {
-      const int other = face.neighbours[i];
-      Face& beside = faces_[other];
-      if (beside.asked < not_seen) {
-        beside.asked = not_seen + sees(p, beside);
-        if (beside.asked > not_seen) growth_.removed.push_back(other);
+  const auto newly_seen = [&](int number) {
+    Face& face = faces_[number];
+    if (face.asked >= not_seen) return false;
+    face.asked = not_seen + sees(p, face);
+    if (face.asked > not_seen) growth_.removed.push_back(number);
+    return face.asked > not_seen;
+  };
+  if constexpr (D == 2) {
+    for (std::size_t k = 0; k < growth_.removed.size(); ++k) {
+      const Face& face = faces_[growth_.removed[k]];
+      for (int i = 0; i < 2; ++i) {
+        const int other = face.neighbours[i];
+        newly_seen(other);
+        if (faces_[other].asked == not_seen) growth_.horizon.push_back({{face.vertices[i], face.vertices[1 - i]}, other});
       }
-      if (beside.asked == not_seen) horizon_.push_back({{face.vertices[i], face.vertices[i + 1 == D ? 0 : i + 1]}, other});
+    }
+  } else if constexpr (D == 3) {
+    constexpr std::array<int, 3> after{1, 2, 0};
+    const auto& [first, second, third] = faces_[seen].neighbours;
+    walk_.assign({third, second, first});
+    while (!walk_.empty()) {
+      const int across = walk_.back(), edge = across & 3;
+      walk_.pop_back();
+      const Face& beside = faces_[across >> 2];
+      if (newly_seen(across >> 2)) {
+        walk_.push_back(beside.neighbours[after[after[edge]]]), walk_.push_back(beside.neighbours[after[edge]]);
+      } else if (beside.asked == not_seen) {
+        growth_.horizon.push_back({{beside.vertices[after[edge]], beside.vertices[edge]}, across});
+      }
     }
   }
 }
 
-/// Puts the ridges in order; false unless they are one closed loop (2D: exactly two ends) that leaves something standing.
+/// Whether the ridges are one closed loop that comes by no vertex twice (2D: exactly two ends, put in order) and leaves something standing.
 template <int D, class S>
-bool Polytope<D, S>::order_horizon() {
-  if constexpr (D == 1) return true;
+bool Polytope<D, S>::one_horizon() {
+  auto& horizon = growth_.horizon;
   if constexpr (D == 2) {
-    if (horizon_.size() != 2) return false;
+    if (horizon.size() != 2) return false;
     const auto starts = [&](const Ridge& r) { return faces_[r.outside].vertices[1] == r.edge[0]; };
-    if (starts(horizon_[0]) == starts(horizon_[1])) return false;
-    if (!starts(horizon_[0])) std::swap(horizon_[0], horizon_[1]);
-    return true;
+    if (starts(horizon[0]) == starts(horizon[1])) return false;
+    if (!starts(horizon[0])) std::swap(horizon[0], horizon[1]);
+  } else if constexpr (D == 3) {
+    if (horizon.size() < 3) return false;
+    met_.resize(points_.size(), 0);
+    int at = horizon.back().edge[1];
+    bool one = true;
+    for (const Ridge& ridge : horizon) {
+      one &= ridge.edge[0] == at && std::exchange(met_[at], growths_) != growths_;
+      at = ridge.edge[1];
+    }
+    return one;
   }
-  const std::size_t count = horizon_.size();
-  if (count < 3) return false;
-  leaves_.resize(points_.size());
-  for (std::size_t i = 0; i < count; ++i) leaves_[horizon_[i].edge[0]] = static_cast<int>(i);
-  // A vertex with two ridges leaving it has one of them left out of the round trip, which then is too short; one with none sends it astray, to a
-  // ridge of another growth.
-  loop_.resize(count);
-  std::size_t at = 0, length = 0;
-  do {
-    const Ridge& ridge = loop_[length++] = horizon_[at];
-    at = static_cast<std::size_t>(leaves_[ridge.edge[1]]);
-    if (at >= count || horizon_[at].edge[0] != ridge.edge[1]) return false;
-  } while (at != 0 && length < count);
-  return at == 0 && length == count;
+  return true;
 }
 
 template <int D, class S>
 void Polytope<D, S>::close(int p) {
-  growth_.added.clear();
-  const int first = static_cast<int>(faces_.size()), count = static_cast<int>(horizon_.size());
+  const auto& horizon = growth_.horizon;
+  const int first = static_cast<int>(faces_.size()), count = D == 3 ? static_cast<int>(horizon.size()) : D;
+  growth_.first_added = first, growth_.added = count;
   if constexpr (D == 1) {
-    growth_.horizon.clear();
-    growth_.added.push_back(add_face({p}, faces_[growth_.removed[0]].neighbours));
+    add_face({p}, faces_[growth_.removed[0]].neighbours);
   } else if constexpr (D == 2) {
-    const Ridge &start = horizon_[0], &end = horizon_[1];
-    growth_.horizon.assign(1, {start.edge[0], end.edge[0]});
-    growth_.added = {add_face({start.edge[0], p}, {start.outside, first + 1}),
-                     add_face({p, end.edge[0]}, {first, end.outside})};
+    const Ridge &start = horizon[0], &end = horizon[1];
+    add_face({start.edge[0], p}, {start.outside, first + 1});
+    add_face({p, end.edge[0]}, {first, end.outside});
     faces_[start.outside].neighbours[1] = first;
     faces_[end.outside].neighbours[0] = first + 1;
   } else {
-    growth_.horizon.resize(loop_.size()), growth_.added.resize(loop_.size());
-    faces_.resize(faces_.size() + loop_.size());
-    V edge = at(loop_[0].edge[0]) - at(p);
+    faces_.resize(faces_.size() + horizon.size());
+    V edge = at(horizon[0].edge[0]) - at(p);
     S squared = edge.dot(edge);
-    for (int k = 0; k < count; ++k) {
-      const Ridge& r = loop_[k];
+    int before = first + count - 1, after = first + 1;
+    for (int number = first; number < first + count; before = number++) {
+      const Ridge& r = horizon[number - first];
+      after = number + 1 < first + count ? number + 1 : first;
       const V next = at(r.edge[1]) - at(p);
       const S next_squared = next.dot(next);
-      const int number = first + k, after = k + 1 == count ? first : number + 1, before = k == 0 ? first + count - 1 : number - 1;
       Face& face = faces_[number];
-      face.vertices = {r.edge[0], r.edge[1], p}, face.neighbours = {r.outside, after, before};
+      face.vertices = {r.edge[0], r.edge[1], p}, face.neighbours = {r.outside, 4 * after + 2, 4 * before + 1};
       set_plane(face, edge, next, squared * next_squared);
-      if (face.distance <= far_) push(number);
-      growth_.horizon[k] = r.edge, growth_.added[k] = number;
-      auto& outside = faces_[r.outside];  // has the edge the other way round
-      outside.neighbours[(outside.vertices[1] == r.edge[1]) + 2 * (outside.vertices[2] == r.edge[1])] = number;
+      open_.push_back({face.distance, number});
+      faces_[r.outside >> 2].neighbours[r.outside & 3] = 4 * number;
       edge = next, squared = next_squared;
     }
   }
@@ -307,7 +327,7 @@ void Polytope<D, S>::close(int p) {
 template <int D, class S>
 bool Polytope<D, S>::grow(int p, int seen) {
   find_seen(p, seen);
-  if (!order_horizon()) return false;
+  if (!one_horizon()) return false;
   for (const int number : growth_.removed) faces_[number].removed = true;
   close(p);
   return true;

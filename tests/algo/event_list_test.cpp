@@ -102,7 +102,7 @@ TEST(EventList, StackedCubesSeedAMissingVertex) {
                                          "face 5 chosen at 0.07071",
                                          "support 7 (epa) along 0 -0.7071 0.7071: w = 0 -2 0.1",
                                          "polytope + 7: -3 +5 faces",
-                                         "face 15 chosen at 0.1",
+                                         "face 12 chosen at 0.1",
                                          "support 8 (epa) along 0 0 1: w = 0 0 0.1",
                                          "epa ended converged: depth 0.1 along 0 0 1",
                                      }));
