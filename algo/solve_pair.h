@@ -100,7 +100,7 @@ class PairSolver {
     }
     gjk_ = run_gjk(options);
     if (warm_) keep_simplex();
-    result_->status = std::string(gjk_status_names[static_cast<std::size_t>(gjk_.status)]);
+    result_->status = gjk_status_names[static_cast<std::size_t>(gjk_.status)];
     result_->iterations += gjk_.iterations;
     if (query == Query::intersect) {
       result_->intersecting = overlapping();
@@ -145,7 +145,7 @@ class PairSolver {
     InflatedDifference<Difference> bodies(difference_);
     const auto found = BooleanGjk<InflatedDifference<Difference>, Trace>(bodies, first_direction(), settings_.max_iterations, trace_).run();
     result_->intersecting = found.intersecting();
-    result_->status = std::string(gjk_status_names[static_cast<std::size_t>(found.status)]);
+    result_->status = gjk_status_names[static_cast<std::size_t>(found.status)];
     result_->iterations = found.iterations;
   }
 
@@ -174,7 +174,7 @@ class PairSolver {
     options.tolerance = static_cast<S>(settings_.tolerance);
     options.max_iterations = settings_.max_iterations;
     const EpaResult<D, S> found = epa(difference_, gjk_.simplex, options, workspace_.epa, trace_);
-    result_->status = std::string(epa_status_names[static_cast<std::size_t>(found.status)]);
+    result_->status = epa_status_names[static_cast<std::size_t>(found.status)];
     result_->iterations += found.iterations;
     set_bounds(-found.upper_bound, -found.lower_bound);
     const bool flat = found.face < 0;
@@ -191,7 +191,7 @@ class PairSolver {
     options.depth = depth;
     options.interior = difference_.center();
     const MprResult<D, S> found = mpr(bodies, options, trace_);
-    result_->status = std::string(mpr_status_names[static_cast<std::size_t>(found.status)]);
+    result_->status = mpr_status_names[static_cast<std::size_t>(found.status)];
     result_->iterations += found.iterations;
     return found;
   }
@@ -271,7 +271,7 @@ class PairSolver {
   /// False: apart, and the distance is asked for.
   bool sat_answers(const SatResult<D, S>& found, bool yes_or_no) {
     result_->iterations += found.iterations;
-    result_->status = std::string(sat_status_names[static_cast<std::size_t>(found.status)]);
+    result_->status = sat_status_names[static_cast<std::size_t>(found.status)];
     const bool apart = found.status == SatStatus::separated;
     axis_ = found.normal;
     if (apart && !(yes_or_no && -static_cast<double>(found.depth) > radius_)) return false;
