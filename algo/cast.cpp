@@ -153,7 +153,7 @@ class Caster {
     return (velocity(p.first) - velocity(p.second)).dot(n) + sideways(p.first, n) + sideways(p.second, n);
   }
 
-  /// Near the top of its arc a rod hardly rises, though |w| times its reach does not know.
+  /// How fast the gap closes at most until it can be closed. Near the top of its arc a rod hardly rises; |w| times its reach would not know.
   double bound_from_here(const Pair& p, const Scene& two, const Gap& gap) {
     if (!(turns(p.first) || turns(p.second)) || !(gap.distance > 0)) return gap.closing;
     TurningBound sum{(velocity(p.first) - velocity(p.second)).dot(gap.normal), 0};

@@ -42,7 +42,7 @@ struct AtlasFamily {
   std::vector<AtlasCase> cases;
 };
 std::vector<AtlasFamily> atlas_families(bool quick);
-/// T1: bodies in motion that graze, or just miss.
+/// T1 and T2: bodies in motion that graze, or just miss.
 std::vector<AtlasFamily> moving_families(bool quick);
 
 struct AtlasCell {

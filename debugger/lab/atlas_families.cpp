@@ -121,7 +121,7 @@ AtlasFamily pierced(bool quick) {
   return family;
 }
 
-/// The pairs that broke FCL, by the number. The depth of 395 is exact SAT's in rational numbers; the others lie along axes.
+/// The pairs that broke FCL, by the number. The depth of 395 is SAT's, as in the gallery; the others lie along axes.
 AtlasFamily replayed() {
   AtlasFamily family{"E2", "pairs that broke FCL: faces of no area, vertices in line with an edge, the wrong feature", {}};
   Scene plate = pair(box(vec(0.23, 0.24, 0.005), vec(-0.721, -0.772, 0.81)), box(vec(0.0247605, 0.073, 0.03625), vec(-0.42677133002999, -0.76596851247747, 0.80746731400091)));
