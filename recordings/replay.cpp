@@ -105,6 +105,9 @@ struct Apply {
     frame.normal = e.normal;
     frame.depth = e.depth;
     frame.stage = Frame::Stage::done;
+    // The event has no bounds: the last step narrowed those of the last growth to the result's. (Of a motion the result is another.)
+    const Result& result = recording.result;
+    if (!recording.scene.scene.motion && result.lower_bound && result.upper_bound) bounds(*result.lower_bound, *result.upper_bound);
   }
 
   void operator()(const recorded::MprBegan& e) {

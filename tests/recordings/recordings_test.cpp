@@ -135,6 +135,22 @@ TEST(Replay, SeekingEqualsPlaying) {
   });
 }
 
+/// The step that shows the answer shows its bounds, not those of the growth before.
+TEST(Replay, EpaEndsWithTheBoundsOfTheResult) {
+  int ends = 0;
+  for_gallery([&](const SceneFile& file) {
+    const Recording recording = record(file);
+    if (file.scene.motion) return;
+    for (std::size_t i = 0; i < recording.events.size(); ++i) {
+      if (!std::holds_alternative<recorded::EpaEnded>(recording.events[i])) continue;
+      ++ends;
+      EXPECT_EQ(frame_at(recording, i).lower_bound, recording.result.lower_bound);
+      EXPECT_EQ(frame_at(recording, i).upper_bound, recording.result.upper_bound);
+    }
+  });
+  EXPECT_GT(ends, 20);
+}
+
 TEST(Comparison, NamesTheFirstDifference) {
   const SceneFile file = read_scene(gallery().file("box-box-deep"));
   const Recording a = record(file);
