@@ -308,10 +308,10 @@ void Polytope<D, S>::close(int p) {
     faces_.resize(faces_.size() + horizon.size());
     V edge = at(horizon[0].edge[0]) - at(p);
     S squared = edge.dot(edge);
-    int before = first + count - 1, after = first + 1;
+    int before = first + count - 1;
     for (int number = first; number < first + count; before = number++) {
       const Ridge& r = horizon[number - first];
-      after = number + 1 < first + count ? number + 1 : first;
+      const int after = number + 1 < first + count ? number + 1 : first;
       const V next = at(r.edge[1]) - at(p);
       const S next_squared = next.dot(next);
       Face& face = faces_[number];
