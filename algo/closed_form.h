@@ -55,7 +55,7 @@ std::optional<CoreSegment<D>> core_segment(const Convex<D, S>& body) {
     return between(-end, end);
   }
   const auto* points = std::get_if<VerticesCore<D, S>>(&body.core());
-  if (points && points->vertices.size() <= 2) return between(points->vertices.front(), points->vertices.back());
+  if (points && points->vertices.size() <= 2) return between(points->vertices[0], points->vertices[points->vertices.size() - 1]);
   return std::nullopt;
 }
 

@@ -73,7 +73,7 @@ class Epa {
   EpaStatus expand() {
     while (true) {
       const int number = polytope_.nearest();
-      const Face face = polytope_.faces()[number];
+      const Face& face = polytope_.faces()[number];
       trace_(FaceChosen<V, Viewed>{result_.iterations, number, face.normal, face.distance});
       if (result_.iterations >= options_.max_iterations) return limit_reached(number, face);
       ++result_.iterations;
@@ -89,9 +89,9 @@ class Epa {
 
   /// A support that is a corner of the face it was to lie beyond: the two differ by rounding alone.
   bool is_corner(const Face& face, const V& w) const {
-    for (const int i : face.vertices)
-      if (polytope_.points()[i].w == w) return true;
-    return false;
+    bool corner = false;
+    for (const int i : face.vertices) corner |= ((at(i) - w).array() == 0).all();
+    return corner;
   }
 
   /// The answer at the limit: the best direction so far; with none yet, the nearest face's.
@@ -103,12 +103,9 @@ class Epa {
   /// Keeps the direction with the least support: the depth is at most `height`. The nearest face bounds it from below.
   void offer(int number, const Face& face, S height) {
     lower_ = face.distance;
-    if (result_.face >= 0 && !(height < best_height_)) return;
-    best_height_ = height;
-    polytope_.leave_out_beyond(height + 2 * floor_);
-    best_vertices_ = face.vertices;
-    result_.face = number;
-    result_.normal = face.normal;
+    const bool better = (height < best_height_) | (result_.face < 0);
+    best_height_ = better ? height : best_height_;
+    result_.face = better ? number : result_.face;
   }
 
   Point query(const V& d, Phase phase) {
@@ -263,7 +260,11 @@ class Epa {
     result_.depth = best_height_ == 0 ? S(0) : best_height_;
     result_.lower_bound = lower_ - floor_;
     result_.upper_bound = best_height_ + floor_;
-    if (result_.face >= 0) set_points();
+    if (result_.face >= 0) {
+      const Face& answer = polytope_.faces()[static_cast<std::size_t>(result_.face)];
+      result_.normal = answer.normal;
+      set_points(answer.vertices);
+    }
     const double radius = static_cast<double>(difference_.radius());
     trace_(EpaEnded<V, Viewed>{result_.iterations, status, result_.face, result_.normal, result_.depth + radius});
     return result_;
@@ -271,20 +272,20 @@ class Epa {
 
   /// The origin's projection on the answering plane, as a combination of a face's vertices. Where that plane carries several
   /// faces, the projection lies in one of them only, not always in the one that was asked first.
-  void set_points() {
-    auto weights = polytope_.weights(best_vertices_, result_.normal, false);
-    S miss = projection_error(best_vertices_, weights);
-    if (miss > floor_) weights = polytope_.weights(best_vertices_, result_.normal, true), miss = projection_error(best_vertices_, weights);
+  void set_points(std::array<int, D> vertices) {
+    auto weights = polytope_.weights(vertices, result_.normal, false);
+    S miss = projection_error(vertices, weights);
+    if (miss > floor_) weights = polytope_.weights(vertices, result_.normal, true), miss = projection_error(vertices, weights);
     if (miss > floor_) {
       for (const Face& face : polytope_.faces()) {
         if (face.removed || face.distance > best_height_ + floor_ || face.normal.dot(result_.normal) < S(0.999)) continue;
         const auto others = polytope_.weights(face.vertices, result_.normal, true);
-        if (const S error = projection_error(face.vertices, others); error < miss) miss = error, weights = others, best_vertices_ = face.vertices;
+        if (const S error = projection_error(face.vertices, others); error < miss) miss = error, weights = others, vertices = face.vertices;
       }
     }
     for (int i = 0; i < D; ++i) {
-      result_.point_a += weights[i] * polytope_.points()[best_vertices_[i]].a;
-      result_.point_b += weights[i] * polytope_.points()[best_vertices_[i]].b;
+      result_.point_a += weights[i] * polytope_.points()[vertices[i]].a;
+      result_.point_b += weights[i] * polytope_.points()[vertices[i]].b;
     }
   }
 
@@ -331,8 +332,10 @@ class Epa {
       const Growth& growth = polytope_.growth();
       auto& edges = workspace_.edges;
       edges.clear();
-      if constexpr (D == 2) edges.push_back({vertex_number(growth.horizon[0].edge[0]), vertex_number(growth.horizon[1].edge[0])});
-      else for (const Ridge& r : growth.horizon) edges.push_back({vertex_number(r.edge[0]), vertex_number(r.edge[1])});
+      const Face* added_faces = polytope_.faces().data() + growth.first_added;
+      if constexpr (D == 2) edges.push_back({vertex_number(added_faces[0].vertices[0]), vertex_number(added_faces[1].vertices[1])});
+      if constexpr (D == 3)
+        for (int i = 0; i < growth.added; ++i) edges.push_back({vertex_number(added_faces[i].vertices[0]), vertex_number(added_faces[i].vertices[1])});
       std::vector<int> added(static_cast<std::size_t>(growth.added));
       std::iota(added.begin(), added.end(), growth.first_added);
       describe(added);
@@ -352,7 +355,6 @@ class Epa {
   EpaResult<D, S> result_;
   S best_height_ = std::numeric_limits<S>::infinity();
   S lower_ = 0;
-  std::array<int, D> best_vertices_{};
   V flat_normal_ = V::Zero();
 };
 

@@ -17,35 +17,31 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "algo/orientation.h"
 #include "algo/simplex.h"
+#include "shapes/fours.h"
 
 namespace gjkdbg {
 
 template <int D, class S>
 struct PolytopeFace {
   std::array<int, D> vertices;     ///< indices into points(); counter-clockwise seen from outside
-  std::array<int, D> neighbours;   ///< 3D: across edge (vertices[i], vertices[i+1]), as 4 times the face and its edge; 2D: before, after; 1D: unused
+  std::array<int, D> neighbours;   ///< 3D: across edge (vertices[i], vertices[i+1]), as 4 times the face and its edge; 2D: before, after; 1D: the side, -1 or 1
   Vector<D, S> normal;             ///< unit, outwards; zero for a face without area
   S distance;                      ///< of the plane from the origin, negative: the origin is outside
+  int place;                       ///< among those that Polytope::nearest looks at
   bool removed = false;
-  int asked = 0;                   ///< when a new point last asked whether it sees this face, and what it heard: see Polytope::find_seen
   PolytopeFace() {}                // leaves the numbers unset: they are written next
 };
 
-/// An edge between a face that a point sees and one that it does not.
-struct Ridge {
-  std::array<int, 2> edge;  ///< 3D: from, to as the seen face has it; 2D: edge[0] is the shared vertex
-  int outside;              ///< the face that stays; 3D: 4 times the face and its edge
-};
-
-/// What one growth did; faces as numbers, the horizon's vertices as indices into points().
+/// What one growth did. The new faces are one after the other around the hole: in 3D face i lies between the edge vertices[0], vertices[1] of the
+/// horizon and the new point, in 2D the first leads to it and the second from it.
 struct Growth {
-  std::vector<int> removed;
-  std::vector<Ridge> horizon;    ///< 3D: one after the other around the hole; 2D: where the hole begins and ends
+  std::span<const int> removed;
   int first_added = 0, added = 0;  ///< new faces: the first one's number, how many
 };
 
@@ -56,9 +52,14 @@ class Polytope {
   using Point = SupportPoint<D, S>;
   using Face = PolytopeFace<D, S>;
 
-  void clear() { points_.clear(), faces_.clear(), open_.clear(), met_.clear(), far_ = std::numeric_limits<S>::infinity(), reach_ = 0, growths_ = 0; }
+  void clear() {
+    std::fill_n(nearness_.begin(), (places_ + 3) / 4, nobody());
+    points_.clear(), met_.clear();
+    count_ = places_ = 0, tidy_at_ = 64, reach_ = 0, growths_ = 0;
+  }
   int add_point(const Point& point) {
     points_.push_back(point);
+    met_.push_back(0);
     reach_ = std::max(reach_, point.w.cwiseAbs().maxCoeff());
     return static_cast<int>(points_.size()) - 1;
   }
@@ -66,68 +67,68 @@ class Polytope {
   /// Starts from D + 1 points that span the space (any orientation).
   void start(std::array<int, D + 1> simplex);
 
-  /// The face with the smallest signed distance, of two the older one; -1 when there is none. One look at all that may answer: there are few, and
-  /// which of them is nearer is nothing a processor can guess, as it would have to in a heap.
-  int nearest() {
-    int face = nearest_open();
-    if (face < 0 && far_ < std::numeric_limits<S>::infinity()) {  // more was left out than should have been: rounding
-      far_ = std::numeric_limits<S>::infinity();
-      for (int i = 0; i < static_cast<int>(faces_.size()); ++i) open_.push_back({faces_[i].distance, i});
-      face = nearest_open();
-    }
-    return face;
-  }
-  /// Faces farther out than this will not be asked for: a nearer one answers.
-  void leave_out_beyond(S distance) { far_ = distance; }
+  /// The face with the smallest signed distance. One look at all there are: they are few, and which of them is nearer is nothing a processor can
+  /// guess, as it would have to in a heap.
+  int nearest();
 
   /// Grows by point p, which must lie outside `seen`. False, and nothing has changed, when no hull with one horizon comes of it.
   bool grow(int p, int seen);
   const Growth& growth() const { return growth_; }  ///< of the last successful grow
 
   const std::vector<Point>& points() const { return points_; }
-  const std::vector<Face>& faces() const { return faces_; }
+  std::span<const Face> faces() const { return {faces_.data(), count_}; }
 
   /// Weights of the face's vertices with which they make its point nearest the origin (the projection; clamped to the face). `wide`: in
   /// twice the precision, as thin faces need.
   std::array<S, D> weights(const std::array<int, D>& vertices, const V& normal, bool wide) const;
 
  private:
-  struct OpenFace {
-    S distance;
-    int face;
-  };
-
   /// Sine of the angle between a face's shorter edges below which its normal is worth less than 1e-13 in double.
   static constexpr S thin = S(1e-3);
+  static constexpr S gone = -std::numeric_limits<S>::infinity();  ///< as nearness: of no face
 
   const V& at(int i) const { return points_[i].w; }
-  /// The nearest of open_, which loses what was removed or lies too far out, and keeps its order.
-  int nearest_open() {
-    OpenFace* kept = open_.data();
-    for (const OpenFace& entry : open_) *kept = entry, kept += !faces_[entry.face].removed & (entry.distance <= far_);
-    open_.resize(static_cast<std::size_t>(kept - open_.data()));
-    S least = std::numeric_limits<S>::infinity();
-    for (const OpenFace& entry : open_) least = std::min(least, entry.distance);
-    for (const OpenFace& entry : open_)
-      if (entry.distance == least) return entry.face;
-    return -1;
+  void make_room();
+  void add_face(const std::array<int, D>& vertices, const std::array<int, D>& neighbours);
+  void remove(int number);
+  static Four<S> nobody() {
+    Four<S> four;
+    for (int k = 0; k < 4; ++k) four.set(k, gone);
+    return four;
   }
-  int add_face(const std::array<int, D>& vertices, const std::array<int, D>& neighbours);
-  void set_plane(Face& face) const;
-  void set_plane(Face& face, const V& edge, const V& next, S squared) const;
+  void set_nearness(int place, S nearness) { nearness_[static_cast<std::size_t>(place) / 4].set(place % 4, nearness); }
+  /// To `nearest`; one without area is asked for as well, but last.
+  void offer(const Face& face) { set_nearness(face.place, -std::min(face.distance, std::numeric_limits<S>::max())); }
+  void take_place(Face& face, int number) {
+    face.place = static_cast<int>(places_);
+    numbers_[places_++] = number;
+    offer(face);
+  }
+  void forget_removed();
   bool sees(int p, const Face& face) const;
-  void find_seen(int p, int seen);
-  bool one_horizon();
-  void close(int p);
+  void set_plane(Face& face) const;
+  void set_plane(Face& face, const V& edge, const V& next) const;
+  bool grow_polygon(int p, int seen);
+  bool grow_polyhedron(int p, int seen);
+  void undo_growth();
 
   std::vector<Point> points_;
+  std::vector<int> met_;  ///< 3D: by point: the growth in whose horizon it was last
+  S reach_ = 0;           ///< largest coordinate of a point, in magnitude
+
+  // Room for what the next growth may add, so that nothing asks on the way and nothing moves in memory.
+  std::size_t room_ = 0;
   std::vector<Face> faces_;
-  std::vector<OpenFace> open_;  ///< faces that may be asked for
-  S far_ = std::numeric_limits<S>::infinity();
-  S reach_ = 0;  ///< largest coordinate of a point, in magnitude
+  std::size_t count_ = 0;          ///< of faces_
+  std::vector<Four<S>> nearness_;  ///< by place: minus the distance of a face that stands; `gone` where there is none
+  std::vector<int> numbers_;       ///< by place: the face
+  std::size_t places_ = 0;         ///< taken
+  std::size_t tidy_at_ = 64;       ///< so many places make `nearest` slow
+  std::vector<int> walk_;          ///< 3D: edges still to cross, as neighbours are
+  std::vector<int> removed_;
+
   Growth growth_;
-  std::vector<int> walk_;  ///< 3D: edges still to cross, as neighbours are
-  std::vector<int> met_;   ///< 3D: the growth in whose horizon a point was last
+  std::size_t removed_count_ = 0;
   int growths_ = 0;
 };
 
@@ -186,32 +187,73 @@ void Polytope<D, S>::set_plane(Face& face) const {
   }
 }
 
-/// 3D: with edges from the face's last vertex to its others at hand; `squared` is |edge|^2 |next|^2.
+/// 3D: with the edges from the face's last vertex to its others at hand.
 template <int D, class S>
-void Polytope<D, S>::set_plane(Face& face, const V& edge, const V& next, S squared) const {
+void Polytope<D, S>::set_plane(Face& face, const V& edge, const V& next) const {
   const V n = edge.cross(next);
   const S area = n.dot(n);
-  if (!(area > thin * thin * squared)) return set_plane(face);
+  if (!(area > thin * thin * (edge.dot(edge) * next.dot(next)))) return set_plane(face);
   face.normal = n / std::sqrt(area);
   face.distance = face.normal.dot(at(face.vertices[2]));
 }
 
+// --- The faces there are ----------------------------------------------------------------------------------------
+
 template <int D, class S>
-int Polytope<D, S>::add_face(const std::array<int, D>& vertices, const std::array<int, D>& neighbours) {
-  const int number = static_cast<int>(faces_.size());
-  Face& face = faces_.emplace_back();
+int Polytope<D, S>::nearest() {
+  if (places_ >= tidy_at_) forget_removed();
+  GreatestOfFours<S> nearness;
+  for (std::size_t i = 0; 4 * i < places_; ++i) nearness.take(nearness_[i]);
+  const auto found = nearness.found();
+  return found.value > gone ? numbers_[found.place] : -1;
+}
+
+/// Leaves the removed ones' places to the others, which keep their order.
+template <int D, class S>
+void Polytope<D, S>::forget_removed() {
+  std::fill_n(nearness_.begin(), (places_ + 3) / 4, nobody());
+  const std::size_t before = std::exchange(places_, 0);
+  for (std::size_t i = 0; i < before; ++i)
+    if (Face& face = faces_[numbers_[i]]; !face.removed) take_place(face, numbers_[i]);
+  tidy_at_ = 2 * places_ + 64;
+}
+
+/// A growth adds at most two faces more than it removes, and never has more edges to cross than that.
+template <int D, class S>
+void Polytope<D, S>::make_room() {
+  if (2 * count_ + 4 <= room_) return;
+  room_ = 4 * count_ + 64;
+  faces_.resize(room_);
+  numbers_.resize(room_), walk_.resize(room_), removed_.resize(room_);
+  nearness_.resize(room_ / 4, nobody());
+}
+
+template <int D, class S>
+void Polytope<D, S>::add_face(const std::array<int, D>& vertices, const std::array<int, D>& neighbours) {
+  const std::size_t number = count_++;
+  Face& face = faces_[number];
   face.vertices = vertices, face.neighbours = neighbours;
-  if constexpr (D == 1) face.normal[0] = neighbours[0] > 0 ? S(1) : S(-1);
-  set_plane(face);
-  open_.push_back({face.distance, number});
-  return number;
+  face.removed = false;
+  if constexpr (D == 1) face.normal[0] = static_cast<S>(neighbours[0]);
+  if constexpr (D == 3) set_plane(face, at(vertices[0]) - at(vertices[2]), at(vertices[1]) - at(vertices[2]));
+  else set_plane(face);
+  take_place(face, static_cast<int>(number));
+}
+
+template <int D, class S>
+void Polytope<D, S>::remove(int number) {
+  Face& face = faces_[number];
+  face.removed = true;
+  set_nearness(face.place, gone);
+  removed_[removed_count_++] = number;
 }
 
 template <int D, class S>
 void Polytope<D, S>::start(std::array<int, D + 1> s) {
+  make_room();
   if constexpr (D == 1) {
     if (at(s[0])[0] > at(s[1])[0]) std::swap(s[0], s[1]);
-    add_face({s[0]}, {-1});  // 1D: the sign of `neighbours` is the face's side
+    add_face({s[0]}, {-1});
     add_face({s[1]}, {1});
   } else if constexpr (D == 2) {
     if (orientation<S>(at(s[0]), at(s[1]), at(s[2])) < 0) std::swap(s[1], s[2]);
@@ -220,117 +262,93 @@ void Polytope<D, S>::start(std::array<int, D + 1> s) {
     // Seen from outside, 0 2 1 is counter-clockwise when 3 lies on the side from which 0 1 2 is.
     if (orientation<S>(at(s[0]), at(s[1]), at(s[2]), at(s[3])) < 0) std::swap(s[1], s[2]);
     constexpr auto across = [](int face, int edge) { return 4 * face + edge; };
-    add_face({s[0], s[2], s[1]}, {across(3, 0), across(2, 0), across(1, 0)});
-    add_face({s[0], s[1], s[3]}, {across(0, 2), across(2, 2), across(3, 1)});
-    add_face({s[1], s[2], s[3]}, {across(0, 1), across(3, 2), across(1, 1)});
-    add_face({s[2], s[0], s[3]}, {across(0, 0), across(1, 2), across(2, 1)});
+    constexpr int vertices[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    constexpr int neighbours[4][3] = {{across(3, 0), across(2, 0), across(1, 0)},
+                                      {across(0, 2), across(2, 2), across(3, 1)},
+                                      {across(0, 1), across(3, 2), across(1, 1)},
+                                      {across(0, 0), across(1, 2), across(2, 1)}};
+    for (int i = 0; i < 4; ++i)
+      add_face({s[vertices[i][0]], s[vertices[i][1]], s[vertices[i][2]]}, {neighbours[i][0], neighbours[i][1], neighbours[i][2]});
   }
 }
 
-/// The connected faces that p sees, and the ridges around them. Every face is asked once: `asked` becomes 2 k + 1 (seen) or 2 k (not) in growth k.
-/// In space the walk goes from face to face counter-clockwise from the edge it came across, and comes to the ridges in their order around the hole.
-template <int D, class S>
-void Polytope<D, S>::find_seen(int p, int seen) {
-  const int not_seen = 2 * ++growths_;
-  growth_.removed.clear(), growth_.removed.push_back(seen);
-  growth_.horizon.clear();
-  faces_[seen].asked = not_seen + 1;
-  const auto newly_seen = [&](int number) {
-    Face& face = faces_[number];
-    if (face.asked >= not_seen) return false;
-    face.asked = not_seen + sees(p, face);
-    if (face.asked > not_seen) growth_.removed.push_back(number);
-    return face.asked > not_seen;
-  };
-  if constexpr (D == 2) {
-    for (std::size_t k = 0; k < growth_.removed.size(); ++k) {
-      const Face& face = faces_[growth_.removed[k]];
-      for (int i = 0; i < 2; ++i) {
-        const int other = face.neighbours[i];
-        newly_seen(other);
-        if (faces_[other].asked == not_seen) growth_.horizon.push_back({{face.vertices[i], face.vertices[1 - i]}, other});
-      }
-    }
-  } else if constexpr (D == 3) {
-    constexpr std::array<int, 3> after{1, 2, 0};
-    const auto& [first, second, third] = faces_[seen].neighbours;
-    walk_.assign({third, second, first});
-    while (!walk_.empty()) {
-      const int across = walk_.back(), edge = across & 3;
-      walk_.pop_back();
-      const Face& beside = faces_[across >> 2];
-      if (newly_seen(across >> 2)) {
-        walk_.push_back(beside.neighbours[after[after[edge]]]), walk_.push_back(beside.neighbours[after[edge]]);
-      } else if (beside.asked == not_seen) {
-        growth_.horizon.push_back({{beside.vertices[after[edge]], beside.vertices[edge]}, across});
-      }
-    }
-  }
-}
-
-/// Whether the ridges are one closed loop that comes by no vertex twice (2D: exactly two ends, put in order) and leaves something standing.
-template <int D, class S>
-bool Polytope<D, S>::one_horizon() {
-  auto& horizon = growth_.horizon;
-  if constexpr (D == 2) {
-    if (horizon.size() != 2) return false;
-    const auto starts = [&](const Ridge& r) { return faces_[r.outside].vertices[1] == r.edge[0]; };
-    if (starts(horizon[0]) == starts(horizon[1])) return false;
-    if (!starts(horizon[0])) std::swap(horizon[0], horizon[1]);
-  } else if constexpr (D == 3) {
-    if (horizon.size() < 3) return false;
-    met_.resize(points_.size(), 0);
-    int at = horizon.back().edge[1];
-    bool one = true;
-    for (const Ridge& ridge : horizon) {
-      one &= ridge.edge[0] == at && std::exchange(met_[at], growths_) != growths_;
-      at = ridge.edge[1];
-    }
-    return one;
-  }
-  return true;
-}
-
-template <int D, class S>
-void Polytope<D, S>::close(int p) {
-  const auto& horizon = growth_.horizon;
-  const int first = static_cast<int>(faces_.size()), count = D == 3 ? static_cast<int>(horizon.size()) : D;
-  growth_.first_added = first, growth_.added = count;
-  if constexpr (D == 1) {
-    add_face({p}, faces_[growth_.removed[0]].neighbours);
-  } else if constexpr (D == 2) {
-    const Ridge &start = horizon[0], &end = horizon[1];
-    add_face({start.edge[0], p}, {start.outside, first + 1});
-    add_face({p, end.edge[0]}, {first, end.outside});
-    faces_[start.outside].neighbours[1] = first;
-    faces_[end.outside].neighbours[0] = first + 1;
-  } else {
-    faces_.resize(faces_.size() + horizon.size());
-    V edge = at(horizon[0].edge[0]) - at(p);
-    S squared = edge.dot(edge);
-    int before = first + count - 1;
-    for (int number = first; number < first + count; before = number++) {
-      const Ridge& r = horizon[number - first];
-      const int after = number + 1 < first + count ? number + 1 : first;
-      const V next = at(r.edge[1]) - at(p);
-      const S next_squared = next.dot(next);
-      Face& face = faces_[number];
-      face.vertices = {r.edge[0], r.edge[1], p}, face.neighbours = {r.outside, 4 * after + 2, 4 * before + 1};
-      set_plane(face, edge, next, squared * next_squared);
-      open_.push_back({face.distance, number});
-      faces_[r.outside >> 2].neighbours[r.outside & 3] = 4 * number;
-      edge = next, squared = next_squared;
-    }
-  }
-}
+// --- Growth -----------------------------------------------------------------------------------------------------
 
 template <int D, class S>
 bool Polytope<D, S>::grow(int p, int seen) {
-  find_seen(p, seen);
-  if (!one_horizon()) return false;
-  for (const int number : growth_.removed) faces_[number].removed = true;
-  close(p);
+  make_room();
+  removed_count_ = 0;
+  growth_.first_added = static_cast<int>(count_);
+  ++growths_;
+  remove(seen);
+  bool closed = true;
+  if constexpr (D == 1) add_face({p}, faces_[seen].neighbours);
+  if constexpr (D == 2) closed = grow_polygon(p, seen);
+  if constexpr (D == 3) closed = grow_polyhedron(p, seen);
+  growth_.removed = {removed_.data(), removed_count_};
+  growth_.added = static_cast<int>(count_) - growth_.first_added;
+  if (!closed) undo_growth();
+  return closed;
+}
+
+template <int D, class S>
+bool Polytope<D, S>::grow_polygon(int p, int seen) {
+  int before = faces_[seen].neighbours[0], after = faces_[seen].neighbours[1];
+  for (; !faces_[before].removed && sees(p, faces_[before]); before = faces_[before].neighbours[0]) remove(before);
+  for (; !faces_[after].removed && sees(p, faces_[after]); after = faces_[after].neighbours[1]) remove(after);
+  if (faces_[before].removed || faces_[after].removed) return false;
+  const int first = growth_.first_added;
+  add_face({faces_[before].vertices[1], p}, {before, first + 1});
+  add_face({p, faces_[after].vertices[0]}, {first, after});
+  faces_[before].neighbours[1] = first;
+  faces_[after].neighbours[0] = first + 1;
   return true;
+}
+
+/// The walk goes from seen face to seen face, counter-clockwise from the edge it came across, so that it comes to the edges of the horizon
+/// in their order around the hole and closes it on the way. False: they are not one loop that comes by no vertex twice.
+template <int D, class S>
+bool Polytope<D, S>::grow_polyhedron(int p, int seen) {
+  constexpr std::array<int, 3> after{1, 2, 0};
+  const int first = growth_.first_added;
+  int* end = walk_.data();
+  const auto& [edge_0, edge_1, edge_2] = faces_[seen].neighbours;
+  *end++ = edge_2, *end++ = edge_1, *end++ = edge_0;
+  bool one_loop = true;
+  int to = -1;
+  while (end > walk_.data()) {
+    const int across = *--end, edge = across & 3;
+    Face& beside = faces_[across >> 2];
+    if (beside.removed) continue;  // seen, and met from another side before
+    if (sees(p, beside)) {
+      remove(across >> 2);
+      *end++ = beside.neighbours[after[after[edge]]], *end++ = beside.neighbours[after[edge]];
+      continue;
+    }
+    const int from = beside.vertices[after[edge]], number = static_cast<int>(count_);
+    one_loop &= (from == to || number == first) && std::exchange(met_[from], growths_) != growths_;
+    to = beside.vertices[edge];
+    beside.neighbours[edge] = 4 * number;
+    add_face({from, to, p}, {across, 4 * (number + 1) + 2, 4 * (number - 1) + 1});
+  }
+  const int last = static_cast<int>(count_) - 1;
+  if (!one_loop || last < first + 2 || to != faces_[first].vertices[0]) return false;
+  faces_[first].neighbours[2] = 4 * last + 1;
+  faces_[last].neighbours[1] = 4 * first + 2;
+  return true;
+}
+
+/// What was removed stands again; in 3D its neighbours may already know what was to take its place.
+template <int D, class S>
+void Polytope<D, S>::undo_growth() {
+  while (count_ > static_cast<std::size_t>(growth_.first_added)) --count_, set_nearness(static_cast<int>(--places_), gone);
+  for (const int number : growth_.removed) {
+    Face& face = faces_[number];
+    face.removed = false;
+    offer(face);
+    if constexpr (D == 3)
+      for (int edge = 0; edge < 3; ++edge) faces_[face.neighbours[edge] >> 2].neighbours[face.neighbours[edge] & 3] = 4 * number + edge;
+  }
 }
 
 /// 3D: the weight of a vertex is the area of the opposite edge with the projected origin, along the normal: n . (w_j x w_k).

@@ -33,7 +33,6 @@ void Convex<D, S>::set_vertices(std::vector<Vector<D, double>> points, double sc
   for (const auto& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
   for (int i = 0; i < D; ++i) reference_[i] = exact_reference(low[i], high[i]);
   VerticesCore<D, S> core;
-  core.vertices.reserve(points.size());
   for (const auto& p : points) {
     core.vertices.push_back(((p - reference_) * scale).template cast<S>());
     extent_ = std::max(extent_, (p - reference_).norm() * scale);
@@ -77,8 +76,12 @@ void Convex<D, S>::set(const Geometry& g, double scale) {
     for (const int i : hull.vertices) points.push_back(g.points[i]);
     set_vertices(std::move(points), scale);
     if constexpr (D == 3)
-      if (hull.rank == 3 && hull.vertices.size() >= table_from && !hull.neighbours.empty())
-        core_ = HullCore<S>(std::get<VerticesCore<D, S>>(core_).vertices, hull);
+      if (hull.rank == 3 && hull.vertices.size() >= table_from && !hull.neighbours.empty()) {
+        const VertexFours<D, S> in_core = std::get<VerticesCore<D, S>>(core_).vertices;
+        std::vector<Vector<D, S>> vertices;
+        for (std::size_t i = 0; i < in_core.size(); ++i) vertices.push_back(in_core[i]);
+        core_ = HullCore<S>(vertices, hull);
+      }
   } else if constexpr (std::is_same_v<Geometry, Sum>) {
     const auto first = std::make_shared<const Convex>(*g.first, scale), second = std::make_shared<const Convex>(*g.second, scale);
     core_ = SumCore<D, S>{first, second};

@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "shapes/convex_hull.h"
-#include "shapes/vector.h"
+#include "shapes/vertex_fours.h"
 
 namespace gjkdbg {
 
@@ -50,44 +50,22 @@ class HullCore {
       for (std::size_t i = 0; i < spread.size(); ++i)
         for (const int other : around(hull, spread[i]))
           if (std::exchange(met[static_cast<std::size_t>(other)], cell) != cell && !overtopped(vertices, hull, other, corners)) spread.push_back(other);
-      first_.push_back(static_cast<int>(highest_.size()));
-      for (std::size_t i = 0; i < spread.size(); i += 4) {
-        Four& four = highest_.emplace_back();
-        for (std::size_t k = 0; k < 4; ++k) {
-          const V& v = vertices[static_cast<std::size_t>(spread[std::min(i + k, spread.size() - 1)])];
-          for (int c = 0; c < 3; ++c) four.coordinate[c][k] = v[c];
-        }
-      }
+      first_.push_back(static_cast<int>(highest_.fours()));
+      highest_.next_run();
+      for (const int i : spread) highest_.push_back(vertices[static_cast<std::size_t>(i)]);
     }
-    first_.push_back(static_cast<int>(highest_.size()));
+    first_.push_back(static_cast<int>(highest_.fours()));
   }
 
   V center() const { return center_; }
-  std::size_t candidates() const { return 4 * highest_.size(); }  ///< of all cells
+  std::size_t candidates() const { return 4 * highest_.fours(); }  ///< of all cells
 
   V support(const V& d) const {
     const int* range = first_.data() + cell_of(box_.cwiseProduct(d));
-    const Four *four = highest_.data() + range[0], *const end = highest_.data() + range[1];
-    const S* best = four->coordinate[0];
-    S best_dot = -std::numeric_limits<S>::infinity();
-    for (; four < end; ++four) {
-      S dot[4];
-      for (int k = 0; k < 4; ++k) dot[k] = four->coordinate[0][k] * d[0] + four->coordinate[1][k] * d[1] + four->coordinate[2][k] * d[2];
-      const bool second = dot[1] > dot[0], fourth = dot[3] > dot[2];
-      const S left = std::max(dot[0], dot[1]), right = std::max(dot[2], dot[3]), most = std::max(left, right);
-      const int place = right > left ? 2 + fourth : 0 + second;
-      const bool higher = most > best_dot;
-      best = higher ? &four->coordinate[0][place] : best, best_dot = higher ? most : best_dot;
-    }
-    return V(best[0], best[4], best[8]);
+    return highest_.highest(d, static_cast<std::size_t>(range[0]), static_cast<std::size_t>(range[1]));
   }
 
  private:
-  /// Four vertices; where there are fewer, the last is there again: the comparisons are then as many in nearly every cell, and without a branch.
-  struct Four {
-    S coordinate[3][4];
-  };
-
   static std::span<const int> around(const ConvexHull& hull, int vertex) {
     const auto i = static_cast<std::size_t>(vertex);
     return std::span(hull.neighbours).subspan(static_cast<std::size_t>(hull.first_neighbour[i]), static_cast<std::size_t>(hull.first_neighbour[i + 1] - hull.first_neighbour[i]));
@@ -136,7 +114,7 @@ class HullCore {
 
   V center_ = V::Zero(), box_;
   int across_;
-  std::vector<Four> highest_;  ///< of cell i: highest_[first_[i] .. first_[i + 1])
+  VertexFours<3, S> highest_;  ///< of cell i: the fours first_[i] … first_[i + 1] - 1
   std::vector<int> first_;
 };
 

@@ -13,9 +13,8 @@
 #include <cmath>
 #include <memory>
 #include <utility>
-#include <vector>
 
-#include "shapes/vector.h"
+#include "shapes/vertex_fours.h"
 
 namespace gjkdbg {
 
@@ -115,27 +114,16 @@ struct EllipsoidCore {
   }
 };
 
-template <class V>
-V mean_of(const std::vector<V>& points) {
-  V sum = V::Zero();
-  for (const V& p : points) sum += p;
-  return sum / static_cast<typename V::Scalar>(points.size());
-}
-
 /// Few vertices: look at all of them.
 template <int D, class S>
 struct VerticesCore {
-  std::vector<Vector<D, S>> vertices;
-  Vector<D, S> center() const { return mean_of(vertices); }
-  Vector<D, S> support(const Vector<D, S>& d) const {
-    const Vector<D, S>* best = vertices.data();
-    S best_dot = best->dot(d);
-    for (const Vector<D, S>* v = best + 1; v != vertices.data() + vertices.size(); ++v) {
-      const S dot = v->dot(d);
-      if (dot > best_dot) best = v, best_dot = dot;
-    }
-    return *best;
+  VertexFours<D, S> vertices;
+  Vector<D, S> center() const {
+    Vector<D, S> sum = Vector<D, S>::Zero();
+    for (std::size_t i = 0; i < vertices.size(); ++i) sum += vertices[i];
+    return sum / static_cast<S>(vertices.size());
   }
+  Vector<D, S> support(const Vector<D, S>& d) const { return vertices.highest(d); }
 };
 
 template <int D, class S>

@@ -30,7 +30,7 @@ void query(benchmark::State& state, const Core& core) {
 
 void scan(benchmark::State& state) {
   VerticesCore<3, double> core;
-  core.vertices = sphere_points(static_cast<int>(state.range(0)));
+  for (const auto& v : sphere_points(static_cast<int>(state.range(0)))) core.vertices.push_back(v);
   query(state, core);
 }
 

@@ -1,0 +1,58 @@
+// Vertices four by four, coordinate by coordinate, and the highest of a run of them along a direction.
+//
+//   x x x x   y y y y   z z z z | x x x x   y y y y   z z z z | …        where fewer than four are left, the last is there again
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "shapes/fours.h"
+#include "shapes/vector.h"
+
+namespace gjkdbg {
+
+template <int D, class S>
+class VertexFours {
+  using V = Vector<D, S>;
+
+ public:
+  void push_back(const V& v) {
+    if (size_ % 4 == 0) fours_.emplace_back();
+    for (int k = static_cast<int>(size_ % 4); k < 4; ++k)
+      for (int c = 0; c < D; ++c) fours_.back()[static_cast<std::size_t>(c)].set(k, v[c]);
+    ++size_;
+  }
+  /// What is appended next begins a four of its own.
+  void next_run() { size_ = 4 * fours_.size(); }
+  std::size_t size() const { return size_; }  ///< with the places that next_run left out
+  std::size_t fours() const { return fours_.size(); }
+  V operator[](std::size_t i) const {
+    V v;
+    for (int c = 0; c < D; ++c) v[c] = fours_[i / 4][static_cast<std::size_t>(c)][static_cast<int>(i % 4)];
+    return v;
+  }
+
+  /// The highest along d of the fours first … last - 1, of which there is one at least; of several as high, any.
+  V highest(const V& d, std::size_t first, std::size_t last) const {
+    GreatestOfFours<S> heights;
+    for (const Coordinates *four = fours_.data() + first, *const end = fours_.data() + last; four < end; ++four) {
+      Four<S> height;
+      for (int i = 0; i < Four<S>::parts; ++i) {
+        height.part[i] = (*four)[0].part[i] * d[0];
+        for (int c = 1; c < D; ++c) height.part[i] += (*four)[static_cast<std::size_t>(c)].part[i] * d[c];
+      }
+      heights.take(height);
+    }
+    return (*this)[4 * first + heights.found().place];
+  }
+  V highest(const V& d) const { return highest(d, 0, fours_.size()); }
+
+ private:
+  using Coordinates = std::array<Four<S>, D>;
+
+  std::vector<Coordinates> fours_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace gjkdbg

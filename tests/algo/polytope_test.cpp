@@ -1,0 +1,142 @@
+#include "algo/polytope.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/support/random_scenes.h"
+
+namespace gjkdbg {
+namespace {
+
+template <int D>
+SupportPoint<D, double> point(const Vector<D, double>& w) {
+  SupportPoint<D, double> p;
+  p.w = w;
+  return p;
+}
+
+template <int D>
+Vector<D, double> random_direction(RandomScenes& random) {
+  Vector<D, double> d;
+  for (int i = 0; i < D; ++i) d[i] = random.uniform(-1, 1);
+  return d.normalized();
+}
+
+/// Closed, convex, every neighbour the other's, and `nearest` a nearest one.
+template <int D>
+void expect_sound(Polytope<D, double>& polytope) {
+  const auto faces = polytope.faces();
+  double least = std::numeric_limits<double>::infinity();
+  std::set<int> used;
+  std::size_t standing = 0;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const auto& face = faces[f];
+    if (face.removed) continue;
+    ++standing;
+    least = std::min(least, face.distance);
+    used.insert(face.vertices.begin(), face.vertices.end());
+    for (const auto& p : polytope.points()) ASSERT_LE(face.normal.dot(p.w) - face.distance, 1e-13);
+    for (int i = 0; i < D; ++i) {
+      const int other = D == 3 ? face.neighbours[i] / 4 : face.neighbours[i], edge = D == 3 ? face.neighbours[i] % 4 : 1 - i;
+      const auto& beside = faces[static_cast<std::size_t>(other)];
+      ASSERT_FALSE(beside.removed);
+      ASSERT_EQ(beside.neighbours[static_cast<std::size_t>(edge)], static_cast<int>(f) * (D == 3 ? 4 : 1) + (D == 3 ? i : 0));
+      if constexpr (D == 3) {
+        ASSERT_EQ(beside.vertices[static_cast<std::size_t>((edge + 1) % 3)], face.vertices[static_cast<std::size_t>(i)]);
+      }
+    }
+  }
+  ASSERT_EQ(standing, D == 3 ? 2 * used.size() - 4 : used.size());  // Euler: no hole, no handle
+  const int nearest = polytope.nearest();
+  ASSERT_GE(nearest, 0);
+  ASSERT_FALSE(faces[static_cast<std::size_t>(nearest)].removed);
+  ASSERT_EQ(faces[static_cast<std::size_t>(nearest)].distance, least);
+}
+
+/// Enough growths that storage moves and removed faces are forgotten, several times; twice, as a workspace is used.
+template <int D>
+void grow_from_random_points() {
+  RandomScenes random(3);
+  Polytope<D, double> polytope;
+  for (int run = 0; run < 2; ++run) {
+    polytope.clear();
+    std::array<int, D + 1> simplex;
+    for (int& i : simplex) i = polytope.add_point(point<D>(random_direction<D>(random)));
+    polytope.start(simplex);
+    expect_sound(polytope);
+    for (int i = 0; i < 300 && !testing::Test::HasFatalFailure(); ++i) {
+      const Vector<D, double> w = random_direction<D>(random) * random.uniform(0.95, 1);
+      const auto faces = polytope.faces();
+      std::size_t seen = 0;
+      while (seen < faces.size() && (faces[seen].removed || faces[seen].normal.dot(w) - faces[seen].distance <= 0)) ++seen;
+      if (seen == faces.size()) continue;
+      const std::size_t before = faces.size();
+      ASSERT_TRUE(polytope.grow(polytope.add_point(point<D>(w)), static_cast<int>(seen)));
+      const Growth& growth = polytope.growth();
+      ASSERT_EQ(growth.first_added, before);
+      ASSERT_EQ(before + static_cast<std::size_t>(growth.added), polytope.faces().size());
+      ASSERT_LE(static_cast<std::size_t>(growth.added), D == 3 ? growth.removed.size() + 2 : 2);  // fewer where a vertex goes
+      for (const int number : growth.removed) ASSERT_TRUE(polytope.faces()[static_cast<std::size_t>(number)].removed);
+      expect_sound(polytope);
+    }
+  }
+}
+
+TEST(Polytope, GrowsFromRandomPointsInThePlane) { grow_from_random_points<2>(); }
+TEST(Polytope, GrowsFromRandomPointsInSpace) { grow_from_random_points<3>(); }
+
+/// A point in the plane of a flat polytope sees every face of it; one above sees half.
+TEST(Polytope, AGrowthThatCannotCloseChangesNothing) {
+  using V = Vector<3, double>;
+  Polytope<3, double> polytope;
+  std::array<int, 4> simplex;
+  const V corners[] = {V(0, 0, 1), V(4, 0, 1), V(0, 4, 1), V(5, 5, 1)};
+  for (std::size_t i = 0; i < 4; ++i) simplex[i] = polytope.add_point(point<3>(corners[i]));
+  polytope.start(simplex);
+  const int nearest = polytope.nearest();
+  const auto neighbours = [&] {
+    std::vector<int> all;
+    for (const auto& face : polytope.faces()) all.insert(all.end(), face.neighbours.begin(), face.neighbours.end());
+    return all;
+  };
+  const std::vector<int> before = neighbours();
+  EXPECT_FALSE(polytope.grow(polytope.add_point(point<3>(V(9, 2, 1))), 0));
+  EXPECT_EQ(neighbours(), before);
+  EXPECT_EQ(polytope.nearest(), nearest);
+  for (const auto& face : polytope.faces()) EXPECT_FALSE(face.removed);
+  int up = 0;
+  while (polytope.faces()[static_cast<std::size_t>(up)].normal[2] < 0) ++up;
+  EXPECT_TRUE(polytope.grow(polytope.add_point(point<3>(V(2, 2, 3))), up));
+  EXPECT_EQ(polytope.growth().first_added, 4);
+}
+
+template <class S>
+void expect_greatest(const std::vector<S>& numbers) {
+  GreatestOfFours<S> greatest;
+  for (std::size_t i = 0; i < numbers.size(); i += 4) {
+    Four<S> four;
+    for (int k = 0; k < 4; ++k) four.set(k, numbers[i + static_cast<std::size_t>(k)]);
+    greatest.take(four);
+  }
+  const auto found = greatest.found();
+  EXPECT_EQ(found.value, *std::max_element(numbers.begin(), numbers.end()));
+  EXPECT_EQ(numbers[found.place], found.value);
+}
+
+TEST(Fours, TheGreatestIsFoundWhereverItIs) {
+  RandomScenes random(4);
+  for (const std::size_t count : {4u, 8u, 20u, 64u})
+    for (int run = 0; run < 200; ++run) {
+      std::vector<double> numbers;
+      for (std::size_t i = 0; i < count; ++i) numbers.push_back(std::floor(random.uniform(-5, 5)));  // some are alike
+      if (run % 3 == 0) numbers[static_cast<std::size_t>(run) % count] = -std::numeric_limits<double>::infinity();
+      if (run % 5 == 0) numbers.assign(count, -std::numeric_limits<double>::infinity());
+      if (run % 10 == 0) numbers[static_cast<std::size_t>(run / 10) % count] = -7;
+      expect_greatest(numbers);
+      expect_greatest(std::vector<float>(numbers.begin(), numbers.end()));
+    }
+}
+
+}  // namespace
+}  // namespace gjkdbg
