@@ -33,7 +33,7 @@ struct PolytopeFace {
   std::array<int, D> neighbours;   ///< 3D: across edge (vertices[i], vertices[i+1]), as 4 times the face and its edge; 2D: before, after; 1D: the side, -1 or 1
   Vector<D, S> normal;             ///< unit, outwards; zero for a face without area
   S distance;                      ///< of the plane from the origin, negative: the origin is outside
-  int place;                       ///< among those that Polytope::nearest looks at
+  std::size_t place;               ///< among those that Polytope::nearest looks at
   bool removed = false;
   PolytopeFace() {}                // leaves the numbers unset: they are written next
 };
@@ -93,14 +93,14 @@ class Polytope {
   void remove(int number);
   static Four<S> nobody() {
     Four<S> four;
-    for (int k = 0; k < 4; ++k) four.set(k, gone);
+    for (std::size_t k = 0; k < 4; ++k) four.set(k, gone);
     return four;
   }
-  void set_nearness(int place, S nearness) { nearness_[static_cast<std::size_t>(place) / 4].set(place % 4, nearness); }
+  void set_nearness(std::size_t place, S nearness) { nearness_[place / 4].set(place % 4, nearness); }
   /// To `nearest`; one without area is asked for as well, but last.
   void offer(const Face& face) { set_nearness(face.place, -std::min(face.distance, std::numeric_limits<S>::max())); }
   void take_place(Face& face, int number) {
-    face.place = static_cast<int>(places_);
+    face.place = places_;
     numbers_[places_++] = number;
     offer(face);
   }
@@ -326,7 +326,7 @@ bool Polytope<D, S>::grow_polyhedron(int p, int seen) {
       continue;
     }
     const int from = beside.vertices[after[edge]], number = static_cast<int>(count_);
-    one_loop &= (from == to || number == first) && std::exchange(met_[from], growths_) != growths_;
+    one_loop &= ((from == to) | (number == first)) & (std::exchange(met_[from], growths_) != growths_);
     to = beside.vertices[edge];
     beside.neighbours[edge] = 4 * number;
     add_face({from, to, p}, {across, 4 * (number + 1) + 2, 4 * (number - 1) + 1});
@@ -341,7 +341,7 @@ bool Polytope<D, S>::grow_polyhedron(int p, int seen) {
 /// What was removed stands again; in 3D its neighbours may already know what was to take its place.
 template <int D, class S>
 void Polytope<D, S>::undo_growth() {
-  while (count_ > static_cast<std::size_t>(growth_.first_added)) --count_, set_nearness(static_cast<int>(--places_), gone);
+  while (count_ > static_cast<std::size_t>(growth_.first_added)) --count_, set_nearness(--places_, gone);
   for (const int number : growth_.removed) {
     Face& face = faces_[number];
     face.removed = false;

@@ -23,8 +23,9 @@ struct Four {
 
   Values part[parts];
 
-  S operator[](int k) const { return part[k / width][k % width]; }
-  void set(int k, S value) { part[k / width][k % width] = value; }
+  const S* data() const { return reinterpret_cast<const S*>(part); }  ///< the four, one after the other
+  S operator[](std::size_t k) const { return data()[k]; }
+  void set(std::size_t k, S value) { reinterpret_cast<S*>(part)[k] = value; }
 };
 
 template <class S>

@@ -10,7 +10,16 @@
 #include "shapes/fours.h"
 #include "shapes/vector.h"
 
+#if defined(__x86_64__) && defined(__GNUC__)
+#define GJKDBG_AVX2  // instructions that not every processor of the kind has: asked for when the program runs
+#endif
+
 namespace gjkdbg {
+
+#ifdef GJKDBG_AVX2
+/// The place of the highest vertex along d, of `count` fours of x, y and z.
+std::size_t highest_by_avx2(const double* fours, std::size_t count, const double* d);
+#endif
 
 template <int D, class S>
 class VertexFours {
@@ -19,7 +28,7 @@ class VertexFours {
  public:
   void push_back(const V& v) {
     if (size_ % 4 == 0) fours_.emplace_back();
-    for (int k = static_cast<int>(size_ % 4); k < 4; ++k)
+    for (std::size_t k = size_ % 4; k < 4; ++k)
       for (int c = 0; c < D; ++c) fours_.back()[static_cast<std::size_t>(c)].set(k, v[c]);
     ++size_;
   }
@@ -29,12 +38,23 @@ class VertexFours {
   std::size_t fours() const { return fours_.size(); }
   V operator[](std::size_t i) const {
     V v;
-    for (int c = 0; c < D; ++c) v[c] = fours_[i / 4][static_cast<std::size_t>(c)][static_cast<int>(i % 4)];
+    for (int c = 0; c < D; ++c) v[c] = fours_[i / 4][static_cast<std::size_t>(c)][i % 4];
     return v;
   }
 
   /// The highest along d of the fours first … last - 1, of which there is one at least; of several as high, any.
-  V highest(const V& d, std::size_t first, std::size_t last) const {
+  V highest(const V& d, std::size_t first, std::size_t last) const { return (*this)[4 * first + place_of_highest(d, first, last)]; }
+  V highest(const V& d) const {
+#ifdef GJKDBG_AVX2
+    constexpr std::size_t worth_a_call = 3;
+    if constexpr (D == 3 && sizeof(S) == 8)
+      if (fours_.size() >= worth_a_call && __builtin_cpu_supports("avx2")) return (*this)[highest_by_avx2(fours_[0][0].data(), fours_.size(), d.data())];
+#endif
+    return highest(d, 0, fours_.size());
+  }
+
+ private:
+  std::size_t place_of_highest(const V& d, std::size_t first, std::size_t last) const {
     GreatestOfFours<S> heights;
     for (const Coordinates *four = fours_.data() + first, *const end = fours_.data() + last; four < end; ++four) {
       Four<S> height;
@@ -44,11 +64,9 @@ class VertexFours {
       }
       heights.take(height);
     }
-    return (*this)[4 * first + heights.found().place];
+    return heights.found().place;
   }
-  V highest(const V& d) const { return highest(d, 0, fours_.size()); }
 
- private:
   using Coordinates = std::array<Four<S>, D>;
 
   std::vector<Coordinates> fours_;

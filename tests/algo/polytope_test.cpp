@@ -116,7 +116,7 @@ void expect_greatest(const std::vector<S>& numbers) {
   GreatestOfFours<S> greatest;
   for (std::size_t i = 0; i < numbers.size(); i += 4) {
     Four<S> four;
-    for (int k = 0; k < 4; ++k) four.set(k, numbers[i + static_cast<std::size_t>(k)]);
+    for (std::size_t k = 0; k < 4; ++k) four.set(k, numbers[i + k]);
     greatest.take(four);
   }
   const auto found = greatest.found();

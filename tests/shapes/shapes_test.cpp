@@ -90,6 +90,21 @@ void expect_supports_of_a_scan(const std::vector<V3>& points, RandomScenes& rand
   }
 }
 
+/// No answer may depend on the processor: whole numbers make many vertices as high as one another.
+TEST(Support, AScanOfAllFoursTakesTheVertexThatFourByFourIsTaken) {
+  RandomScenes random(6);
+  const auto whole = [&](double most) { return std::round(random.uniform(-most, most)); };
+  for (const int count : {1, 4, 9, 12, 33, 149})
+    for (int run = 0; run < 200; ++run) {
+      VertexFours<3, double> vertices;
+      std::vector<V3> list;
+      for (int i = 0; i < count; ++i) list.push_back(V3(whole(3), whole(3), whole(3))), vertices.push_back(list.back());
+      const V3 d(whole(2), whole(2), run % 3 == 0 ? random.uniform(-1, 1) : whole(2)), highest = vertices.highest(d);
+      EXPECT_EQ(highest, vertices.highest(d, 0, vertices.fours()));
+      for (const V3& v : list) EXPECT_LE(v.dot(d), highest.dot(d));
+    }
+}
+
 TEST(Support, TheTableOfAHullFindsWhatAScanFinds) {
   RandomScenes random(2);
   const Eigen::Matrix3d turned = Eigen::AngleAxisd(0.7, V3(1, 2, 3).normalized()).toRotationMatrix();
