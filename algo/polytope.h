@@ -16,6 +16,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <utility>
@@ -33,7 +34,7 @@ struct PolytopeFace {
   std::array<int, D> neighbours;   ///< 3D: across edge (vertices[i], vertices[i+1]), as 4 times the face and its edge; 2D: before, after; 1D: the side, -1 or 1
   Vector<D, S> normal;             ///< unit, outwards; zero for a face without area
   S distance;                      ///< of the plane from the origin, negative: the origin is outside
-  std::size_t place;               ///< among those that Polytope::nearest looks at
+  std::uint32_t place;             ///< among those that Polytope::nearest looks at
   bool removed = false;
   PolytopeFace() {}                // leaves the numbers unset: they are written next
 };
@@ -100,7 +101,7 @@ class Polytope {
   /// To `nearest`; one without area is asked for as well, but last.
   void offer(const Face& face) { set_nearness(face.place, -std::min(face.distance, std::numeric_limits<S>::max())); }
   void take_place(Face& face, int number) {
-    face.place = places_;
+    face.place = static_cast<std::uint32_t>(places_);
     numbers_[places_++] = number;
     offer(face);
   }
