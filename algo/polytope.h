@@ -12,7 +12,7 @@
 //       \  |  /              is decided by robust orientation, the faces p sees always form one
 //          d                 disc with one loop around it, as for the exact hull.
 //
-// Faces are numbered in the order they are added, and a number is never used again.
+// Faces are numbered in the order they are added, and the number of a face that stood is never used again.
 #pragma once
 
 #include <algorithm>
@@ -53,6 +53,10 @@ class Polytope {
   using Point = SupportPoint<D, S>;
   using Face = PolytopeFace<D, S>;
 
+  Polytope() = default;
+  Polytope(const Polytope&) = delete;  // growth_ looks into removed_
+  Polytope& operator=(const Polytope&) = delete;
+
   void clear() {
     std::fill_n(nearness_.begin(), (places_ + 3) / 4, nobody());
     points_.clear(), met_.clear();
@@ -72,9 +76,9 @@ class Polytope {
   /// guess, as it would have to in a heap.
   int nearest();
 
-  /// Grows by point p, which must lie outside `seen`. False, and nothing has changed, when no hull with one horizon comes of it.
+  /// Grows by point p, which must lie outside `seen`. False, and no face has changed, when no hull with one horizon comes of it.
   bool grow(int p, int seen);
-  const Growth& growth() const { return growth_; }  ///< of the last successful grow
+  const Growth& growth() const { return growth_; }  ///< of the last grow, if it succeeded
 
   const std::vector<Point>& points() const { return points_; }
   std::span<const Face> faces() const { return {faces_.data(), count_}; }
@@ -223,10 +227,11 @@ void Polytope<D, S>::forget_removed() {
 template <int D, class S>
 void Polytope<D, S>::make_room() {
   if (2 * count_ + 4 <= room_) return;
-  room_ = 4 * count_ + 64;
-  faces_.resize(room_);
-  numbers_.resize(room_), walk_.resize(room_), removed_.resize(room_);
-  nearness_.resize(room_ / 4, nobody());
+  const std::size_t room = 4 * count_ + 64;
+  faces_.resize(room);
+  numbers_.resize(room), walk_.resize(room), removed_.resize(room);
+  nearness_.resize(room / 4, nobody());
+  room_ = room;  // last: an allocation may fail
 }
 
 template <int D, class S>

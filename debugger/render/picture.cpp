@@ -22,13 +22,18 @@ double middle_depth(const std::vector<Projected>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-/// Labels look for a free place around their point: right, left, above, below, and farther out.
+/// Labels look for a free place around their point, inside the view: right, left, above, below, and farther out.
 void place_labels(const Picture& picture, const Projection& project, std::vector<FlatItem>& out) {
   struct Box {
     double x, y, w, h;
     bool meets(const Box& o) const { return x < o.x + o.w && o.x < x + w && y < o.y + o.h && o.y < y + h; }
   };
   std::vector<Box> taken;
+  const ViewRectangle& view = project.rectangle();
+  const auto fits = [&](const Box& box) {
+    if (box.x < view.x || box.x + box.w > view.x + view.width || box.y < view.y || box.y + box.h > view.y + view.height) return false;
+    return std::none_of(taken.begin(), taken.end(), [&](const Box& t) { return t.meets(box); });
+  };
   for (const PictureLabel& label : picture.labels) {
     const Projected at = project(label.at);
     const double w = 8.5 * static_cast<double>(label.text.size()), h = 17;
@@ -37,7 +42,7 @@ void place_labels(const Picture& picture, const Projection& project, std::vector
     Box best{at.x + offsets[0][0], at.y + offsets[0][1] - h / 2, w, h};
     for (const auto& o : offsets) {
       const Box box{at.x + o[0], at.y + o[1] - h / 2, w, h};
-      if (std::none_of(taken.begin(), taken.end(), [&](const Box& t) { return t.meets(box); })) {
+      if (fits(box)) {
         best = box;
         break;
       }

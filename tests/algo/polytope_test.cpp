@@ -2,12 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "tests/support/random_scenes.h"
 
 namespace gjkdbg {
 namespace {
+
+using V3 = Vector<3, double>;
 
 template <int D>
 SupportPoint<D, double> point(const Vector<D, double>& w) {
@@ -86,29 +89,60 @@ void grow_from_random_points() {
 TEST(Polytope, GrowsFromRandomPointsInThePlane) { grow_from_random_points<2>(); }
 TEST(Polytope, GrowsFromRandomPointsInSpace) { grow_from_random_points<3>(); }
 
-/// A point in the plane of a flat polytope sees every face of it; one above sees half.
-TEST(Polytope, AGrowthThatCannotCloseChangesNothing) {
-  using V = Vector<3, double>;
-  Polytope<3, double> polytope;
+using Solid = Polytope<3, double>;
+
+void start(Solid& polytope, std::initializer_list<V3> corners) {
   std::array<int, 4> simplex;
-  const V corners[] = {V(0, 0, 1), V(4, 0, 1), V(0, 4, 1), V(5, 5, 1)};
-  for (std::size_t i = 0; i < 4; ++i) simplex[i] = polytope.add_point(point<3>(corners[i]));
+  std::transform(corners.begin(), corners.end(), simplex.begin(), [&](const V3& corner) { return polytope.add_point(point<3>(corner)); });
   polytope.start(simplex);
-  const int nearest = polytope.nearest();
-  const auto neighbours = [&] {
-    std::vector<int> all;
-    for (const auto& face : polytope.faces()) all.insert(all.end(), face.neighbours.begin(), face.neighbours.end());
-    return all;
-  };
-  const std::vector<int> before = neighbours();
-  EXPECT_FALSE(polytope.grow(polytope.add_point(point<3>(V(9, 2, 1))), 0));
-  EXPECT_EQ(neighbours(), before);
-  EXPECT_EQ(polytope.nearest(), nearest);
-  for (const auto& face : polytope.faces()) EXPECT_FALSE(face.removed);
-  int up = 0;
-  while (polytope.faces()[static_cast<std::size_t>(up)].normal[2] < 0) ++up;
-  EXPECT_TRUE(polytope.grow(polytope.add_point(point<3>(V(2, 2, 3))), up));
+}
+
+bool grow(Solid& polytope, const V3& w, int seen) { return polytope.grow(polytope.add_point(point<3>(w)), seen); }
+
+/// The first standing face that the condition holds for.
+template <class Condition>
+int face_with(const Solid& polytope, Condition condition) {
+  for (std::size_t f = 0; f < polytope.faces().size(); ++f)
+    if (!polytope.faces()[f].removed && condition(polytope.faces()[f])) return static_cast<int>(f);
+  return -1;
+}
+
+/// Of every face: its neighbours, and whether it stands; at last, the nearest.
+std::vector<int> state(Solid& polytope) {
+  std::vector<int> all;
+  for (const auto& face : polytope.faces()) all.insert(all.end(), face.neighbours.begin(), face.neighbours.end()), all.push_back(face.removed);
+  all.push_back(polytope.nearest());
+  return all;
+}
+
+/// A point in the plane of a flat polytope sees every face of it; one above sees half.
+TEST(Polytope, AGrowthThatSeesEveryFaceChangesNone) {
+  Solid polytope;
+  start(polytope, {V3(0, 0, 1), V3(4, 0, 1), V3(0, 4, 1), V3(5, 5, 1)});
+  const std::vector<int> before = state(polytope);
+  EXPECT_FALSE(grow(polytope, V3(9, 2, 1), 0));
+  EXPECT_EQ(state(polytope), before);
+  EXPECT_TRUE(grow(polytope, V3(2, 2, 3), face_with(polytope, [](const auto& face) { return face.normal[2] > 0; })));
   EXPECT_EQ(polytope.growth().first_added, 4);
+}
+
+/// A pyramid, and a point above three of its sides that is said to see a half of its base too: the hole is pinched at a corner of it.
+TEST(Polytope, AGrowthWithAPinchedHorizonChangesNothing) {
+  Solid polytope;
+  start(polytope, {V3(0, 0, 0), V3(1, 0, 0), V3(1, 1, 0), V3(0.5, 0.5, 1)});
+  const auto below = [](const auto& face) { return face.normal[2] < -0.5; };
+  ASSERT_TRUE(grow(polytope, V3(0, 1, 0), face_with(polytope, below)));
+  const V3 w(0.2, 0.5, 1.5);
+  const int wrong = face_with(polytope, [&](const auto& face) {
+    return below(face) && std::count(face.vertices.begin(), face.vertices.end(), 0) == 0;  // not at the corner below w
+  });
+  ASSERT_GE(wrong, 0);
+  const std::vector<int> before = state(polytope);
+  EXPECT_FALSE(grow(polytope, w, wrong));
+  EXPECT_GT(polytope.growth().added, 0);  // it was noticed late
+  EXPECT_EQ(state(polytope), before);
+  EXPECT_TRUE(grow(polytope, w, face_with(polytope, [&](const auto& face) { return face.normal.dot(w) > face.distance + 0.1; })));
+  expect_sound(polytope);
 }
 
 template <class S>
