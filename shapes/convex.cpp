@@ -77,7 +77,7 @@ void Convex<D, S>::set(const Geometry& g, double scale) {
     set_vertices(std::move(points), scale);
     if constexpr (D == 3)
       if (hull.rank == 3 && hull.vertices.size() >= table_from && !hull.neighbours.empty()) {
-        const VertexFours<D, S> in_core = std::get<VerticesCore<D, S>>(core_).vertices;
+        const VertexFours<D, S>& in_core = std::get<VerticesCore<D, S>>(core_).vertices;
         std::vector<Vector<D, S>> vertices;
         for (std::size_t i = 0; i < in_core.size(); ++i) vertices.push_back(in_core[i]);
         core_ = HullCore<S>(vertices, hull);

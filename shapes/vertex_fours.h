@@ -43,7 +43,19 @@ class VertexFours {
   }
 
   /// The highest along d of the fours first … last - 1, of which there is one at least; of several as high, any.
-  V highest(const V& d, std::size_t first, std::size_t last) const { return (*this)[4 * first + place_of_highest(d, first, last)]; }
+  V highest(const V& d, std::size_t first, std::size_t last) const {
+    GreatestOfFours<S> heights;
+    for (const Coordinates *four = fours_.data() + first, *const end = fours_.data() + last; four < end; ++four) {
+      Four<S> height;
+      for (int i = 0; i < Four<S>::parts; ++i) {
+        height.part[i] = (*four)[0].part[i] * d[0];
+        for (int c = 1; c < D; ++c) height.part[i] += (*four)[static_cast<std::size_t>(c)].part[i] * d[c];
+      }
+      heights.take(height);
+    }
+    return (*this)[4 * first + heights.found().place];
+  }
+  /// The same of all of them.
   V highest(const V& d) const {
 #ifdef GJKDBG_AVX2
     constexpr std::size_t worth_a_call = 3;
@@ -54,19 +66,6 @@ class VertexFours {
   }
 
  private:
-  std::size_t place_of_highest(const V& d, std::size_t first, std::size_t last) const {
-    GreatestOfFours<S> heights;
-    for (const Coordinates *four = fours_.data() + first, *const end = fours_.data() + last; four < end; ++four) {
-      Four<S> height;
-      for (int i = 0; i < Four<S>::parts; ++i) {
-        height.part[i] = (*four)[0].part[i] * d[0];
-        for (int c = 1; c < D; ++c) height.part[i] += (*four)[static_cast<std::size_t>(c)].part[i] * d[c];
-      }
-      heights.take(height);
-    }
-    return heights.found().place;
-  }
-
   using Coordinates = std::array<Four<S>, D>;
 
   std::vector<Coordinates> fours_;
