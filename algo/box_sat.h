@@ -135,9 +135,16 @@ class BoxSat {
   }
 
   /// A corner farthest along d.
-  V corner_a(const V& d) const { return center_a_ + signs(d).cwiseProduct(half_a_); }
-  V corner_b(const V& d) const { return center_b_ + rotation_ * signs(rotation_.transpose() * d).cwiseProduct(half_b_); }
-  static V signs(const V& d) { return (d.array() < 0).select(V::Constant(-1), V::Constant(1)); }
+  V corner_a(const V& d) const {
+    V corner = center_a_;
+    for (int i = 0; i < D; ++i) corner[i] += d[i] < 0 ? -half_a_[i] : half_a_[i];
+    return corner;
+  }
+  V corner_b(const V& d) const {
+    V corner = center_b_;
+    for (int j = 0; j < D; ++j) corner += rotation_.col(j) * (rotation_.col(j).dot(d) < 0 ? -half_b_[j] : half_b_[j]);
+    return corner;
+  }
 
   static V clamped(const V& p, const V& half) { return p.cwiseMin(half).cwiseMax(-half); }
 

@@ -118,15 +118,16 @@ class ClosedForm {
   Nearest solve(const V& c, bool wide) const {
     Nearest n;
     const bool line_u = uu_ > 0, line_v = vv_ > 0;
+    const S cu = c.dot(u_), cv = c.dot(v_);
     n.free_s = n.free_t = std::numeric_limits<S>::quiet_NaN();
-    if (line_u && line_v) n.free_s = line_parameter(c, wide), n.free_t = (n.free_s * uv_ + c.dot(v_)) / vv_;
-    else if (line_u) n.free_s = -c.dot(u_) / uu_;
-    else if (line_v) n.free_t = c.dot(v_) / vv_;
+    if (line_u && line_v) n.free_s = line_parameter(c, wide), n.free_t = (n.free_s * uv_ + cv) / vv_;
+    else if (line_u) n.free_s = -cu / uu_;
+    else if (line_v) n.free_t = cv / vv_;
     n.s = line_u && !std::isnan(n.free_s) ? clamped(n.free_s) : S(0);
     if (line_v) {
-      const S t = (c + n.s * u_).dot(v_) / vv_;
+      const S t = (n.s * uv_ + cv) / vv_;
       n.t = clamped(t);
-      if (line_u && t != n.t) n.s = clamped((n.t * v_ - c).dot(u_) / uu_);
+      if (line_u && t != n.t) n.s = clamped((n.t * uv_ - cu) / uu_);
     }
     n.w = c + n.s * u_ - n.t * v_;
     stand_upright(c, n);
@@ -196,7 +197,7 @@ class ClosedForm {
   Result finish(ClosedFormStatus status, const Nearest& n, const V& normal, S core_distance, S lower, S upper, Query query) {
     const double radius = radius_a_ + radius_b_;
     Result r;
-    r.status = std::string(closed_form_status_names[static_cast<std::size_t>(status)]);
+    r.status = closed_form_status_names[static_cast<std::size_t>(status)];
     r.iterations = 1;
     r.intersecting = static_cast<double>(core_distance) <= radius;
     const double low = static_cast<double>(lower) - radius, high = static_cast<double>(upper) - radius;

@@ -172,6 +172,7 @@ class Gjk {
   /// |v| must fall. Where the plane still turns but |v| falls by less than it rounds (a nearly flat part of A - B met at
   /// a grazing angle), a few steps on the spot are allowed.
   bool accept(const Feature& feature) {
+    if (feature.enclosed && result_.lower_bound > 0) return false;  // a support plane has shown the origin outside: rounding speaks
     if (!feature.enclosed && !(feature.v_squared < v_squared_)) {
       constexpr S rounding = 8 * std::numeric_limits<S>::epsilon();
       if (feature.v == result_.v || !(feature.v_squared <= v_squared_ * (1 + rounding)) || ++steps_on_the_spot_ > 8) return false;
@@ -287,12 +288,11 @@ class Gjk {
   Numbers before_;
 };
 
-/// Runs GJK on a difference. Directions, points and v are in the frame of body 0.
+/// Runs GJK on a difference, into a new result. Directions, points and v are in the frame of body 0.
 template <class SubAlgorithm, class Difference, class Trace>
-auto gjk(Difference& difference, const GjkOptions<Difference::D, typename Difference::S>& options, Trace& trace) {
-  GjkResult<Difference::D, typename Difference::S> result;
+void gjk(Difference& difference, const GjkOptions<Difference::D, typename Difference::S>& options, Trace& trace,
+         GjkResult<Difference::D, typename Difference::S>& result) {
   Gjk<Difference, SubAlgorithm, Trace>(difference, options, trace, result).run();
-  return result;
 }
 
 }  // namespace gjkdbg

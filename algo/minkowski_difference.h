@@ -63,9 +63,11 @@ RelativePose<D, S> relative_pose(const PlacedAxes<D>& pose_a, const Vector<D, do
   Vector<D, double> high, low;
   for (int i = 0; i < D; ++i) high[i] = offset[i].high, low[i] = offset[i].low;
   RelativePose<D, S> relative;
-  const Matrix<D, double> back = pose_a.rotation.transpose(), rotation = back * pose_b.rotation;
-  relative.rotation = rotation.template cast<S>();
-  relative.position = Vector<D, double>(back * high + back * low).template cast<S>();
+  for (int i = 0; i < D; ++i) {
+    const auto axis = pose_a.rotation.col(i);
+    for (int j = 0; j < D; ++j) relative.rotation(i, j) = static_cast<S>(axis.dot(pose_b.rotation.col(j)));
+    relative.position[i] = static_cast<S>(axis.dot(high) + axis.dot(low));
+  }
   return relative;
 }
 
@@ -86,8 +88,9 @@ class MinkowskiDifference {
     rounding_floor_ = roundings * std::numeric_limits<S>::epsilon() / 2 * magnitude;
   }
 
-  /// The point of A - B farthest along d (body 0's frame, any length). Counts.
-  Point support(const V& d) {
+  /// The point of A - B farthest along d (body 0's frame, any length). Counts. All in one function (a tenth of the time of two boxes): a vector that
+  /// a call returns is written number by number and read two at once, and a processor waits until such a write has reached the cache.
+  [[gnu::flatten]] Point support(const V& d) {
     Point point;
     point.a = a_.support(d);
     point.b.noalias() = rotation_ * b_.support(-(inverse_ * d));

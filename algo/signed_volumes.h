@@ -41,68 +41,67 @@ struct SignedVolumes {
   }
   /// w[place[0]], w[place[1]], … of D + 1 places; the feature's indices are places.
   static Feature closest(const V* w, const int* place, int size) {
-    if (size == 1) return vertex(w, place[0]);
-    if (size == D + 1) return full(w);
-    if constexpr (D == 3)
-      if (size == 3) return triangle(w, place[0], place[1], place[2]);
-    return segment(w, place[0], place[1]);
+    Feature f;
+    if (size == 1) vertex(w, place[0], f);
+    else if (size == D + 1) full(w, f);
+    else if (size == 2) segment(w, place[0], place[1], f);
+    else if constexpr (D == 3) triangle(w, place[0], place[1], place[2], f);
+    return f;
   }
 
  private:
-  static Feature vertex(const V* w, int i) {
-    Feature f;
-    f.count = 1, f.index[0] = i, f.weight[0] = 1;
-    f.v = w[i], f.v_squared = w[i].dot(w[i]);
-    return f;
+  // Each of these takes what it finds to `best` where that has nothing yet or nothing as near.
+
+  static bool nearer(S v_squared, const Feature& best) { return best.count == 0 || v_squared < best.v_squared; }
+
+  static void vertex(const V* w, int i, Feature& best) {
+    const S v_squared = w[i].dot(w[i]);
+    if (!nearer(v_squared, best)) return;
+    best.count = 1, best.index[0] = i, best.weight[0] = 1;
+    best.v = w[i], best.v_squared = v_squared;
   }
 
   /// e = w_j - w_i; the origin projects to w_i + t e with t = -w_i . e / e . e. The point is measured from the nearer end,
   /// and what rounding left along e is taken off once more, so that v stays perpendicular to the edge.
-  static Feature segment(const V* w, int i, int j) {
+  static void segment(const V* w, int i, int j, Feature& best) {
     const V e = w[j] - w[i];
     const S along_i = -w[i].dot(e), along_j = w[j].dot(e), length = e.dot(e);
-    if (!(along_i > 0) || !(length > 0)) return vertex(w, i);
-    if (!(along_j > 0)) return vertex(w, j);
-    Feature f;
-    f.count = 2, f.index[0] = i, f.index[1] = j;
+    if (!(along_i > 0) || !(length > 0)) return vertex(w, i, best);
+    if (!(along_j > 0)) return vertex(w, j, best);
     const bool nearer_i = along_i < along_j;
-    const S t = nearer_i ? along_i / length : along_j / length;
-    f.weight[0] = nearer_i ? 1 - t : t, f.weight[1] = nearer_i ? t : 1 - t;
-    f.v = nearer_i ? V(w[i] + t * e) : V(w[j] - t * e);
-    f.v -= e * (f.v.dot(e) / length);
-    f.v_squared = f.v.dot(f.v);
-    return f;
-  }
-
-  static void keep_nearer(Feature& best, const Feature& candidate) {
-    if (best.count == 0 || candidate.v_squared < best.v_squared) best = candidate;
+    const S t = (nearer_i ? along_i : along_j) / length;
+    V v = nearer_i ? V(w[i] + t * e) : V(w[j] - t * e);
+    v -= e * (v.dot(e) / length);
+    const S v_squared = v.dot(v);
+    if (!nearer(v_squared, best)) return;
+    best.count = 2, best.index[0] = i, best.index[1] = j;
+    best.weight[0] = nearer_i ? 1 - t : t, best.weight[1] = nearer_i ? t : 1 - t;
+    best.v = v, best.v_squared = v_squared;
   }
 
   /// A triangle in space. n = (w_j - w_i) x (w_k - w_i); the weight of w_i has the sign of n . (w_j x w_k): twice
   /// the area of edge jk with the projected origin, times |n|. The products are taken with edges, which are short.
-  static Feature triangle(const V* w, int i, int j, int k) {
+  static void triangle(const V* w, int i, int j, int k, Feature& best) {
     const V ij = w[j] - w[i], jk = w[k] - w[j], ki = w[i] - w[k];
     const V n = ij.cross(jk);
     const S area = n.dot(n);
     constexpr S thin = S(1e-6);  // sine squared of the angle below which the normal is worth less than 1e-13 in double
-    if (!(area > thin * ij.dot(ij) * jk.dot(jk)) || !(area > thin * jk.dot(jk) * ki.dot(ki))) return thin_triangle(w, {i, j, k});
+    if (!(area > thin * ij.dot(ij) * jk.dot(jk)) || !(area > thin * jk.dot(jk) * ki.dot(ki))) return thin_triangle(w, {i, j, k}, best);
     const S weight_i = n.dot(w[j].cross(jk)), weight_j = n.dot(w[k].cross(ki)), weight_k = n.dot(w[i].cross(ij));
-    if (weight_i > 0 && weight_j > 0 && weight_k > 0) {
-      Feature f;
-      f.count = 3, f.index = {i, j, k};
-      const S sum = weight_i + weight_j + weight_k;
-      f.weight[0] = weight_i / sum, f.weight[1] = weight_j / sum, f.weight[2] = weight_k / sum;
-      f.v = n * (n.dot(nearest_of(w, i, j, k)) / area);
-      f.v_squared = f.v.dot(f.v);
-      return f;
-    }
     const bool beyond_i = !(weight_i > 0), beyond_j = !(weight_j > 0), beyond_k = !(weight_k > 0);
-    if (beyond_i + beyond_j + beyond_k == 1) return beyond_i ? segment(w, j, k) : beyond_j ? segment(w, k, i) : segment(w, i, j);
-    Feature best;
-    if (beyond_i) keep_nearer(best, segment(w, j, k));
-    if (beyond_j) keep_nearer(best, segment(w, k, i));
-    if (beyond_k) keep_nearer(best, segment(w, i, j));
-    return best;
+    if (!(beyond_i | beyond_j | beyond_k)) {
+      const V v = n * (n.dot(nearest_of(w, i, j, k)) / area);
+      const S v_squared = v.dot(v);
+      if (!nearer(v_squared, best)) return;
+      const S sum = weight_i + weight_j + weight_k;
+      best.count = 3, best.index[0] = i, best.index[1] = j, best.index[2] = k;
+      best.weight[0] = weight_i / sum, best.weight[1] = weight_j / sum, best.weight[2] = weight_k / sum;
+      best.v = v, best.v_squared = v_squared;
+      return;
+    }
+    if (beyond_i) segment(w, j, k, best);
+    if (beyond_j) segment(w, k, i, best);
+    if (beyond_k) segment(w, i, j, best);
   }
 
   static const V& nearest_of(const V* w, int i, int j, int k) {
@@ -123,42 +122,41 @@ struct SignedVolumes {
   }
 
   /// A triangle whose normal is worth little: in twice the precision where nothing simpler will do.
-  static Feature thin_triangle(const V* w, const std::array<int, 3>& index) {
+  static void thin_triangle(const V* w, const std::array<int, 3>& index, Feature& best) {
     const std::array<V, 3> vertices{w[index[0]], w[index[1]], w[index[2]]};
     Feature f;
     if (!self_evident(vertices.data(), 3, f)) f = WideClosestPoint<D, S>::of_boundary(vertices.data(), 3);
+    if (!nearer(f.v_squared, best)) return;
     for (int i = 0; i < f.count; ++i) f.index[i] = index[f.index[i]];
-    return f;
+    best = f;
   }
 
-  static Feature enclosed(std::array<S, D + 1> weights) {
-    Feature f;
+  static void enclosed(std::array<S, D + 1> weights, Feature& f) {
     f.count = D + 1, f.enclosed = true;
     S sum = 0;
     for (const S weight : weights) sum += weight;
     for (int i = 0; i <= D; ++i) f.index[i] = i, f.weight[i] = weights[i] / sum;
-    return f;
   }
 
-  static Feature full(const V* w) {
-    if constexpr (D == 1) return interval(w);
-    if constexpr (D == 2) return flat_triangle(w);
-    if constexpr (D == 3) return tetrahedron(w);
+  static void full(const V* w, Feature& best) {
+    if constexpr (D == 1) interval(w, best);
+    if constexpr (D == 2) flat_triangle(w, best);
+    if constexpr (D == 3) tetrahedron(w, best);
   }
 
-  static Feature interval(const V* w) {
+  static void interval(const V* w, Feature& best) {
     const S low = w[0][0], high = w[1][0];
-    if ((low < 0 && high > 0) || (low > 0 && high < 0)) return enclosed({std::abs(high), std::abs(low)});
-    return vertex(w, std::abs(low) <= std::abs(high) ? 0 : 1);
+    if ((low < 0 && high > 0) || (low > 0 && high < 0)) return enclosed({std::abs(high), std::abs(low)}, best);
+    vertex(w, std::abs(low) <= std::abs(high) ? 0 : 1, best);
   }
 
   /// Sign of a value known to `error`; when rounding could flip it, `exactly()` decides.
   template <class Exactly>
   static int sure_sign(S value, S error, Exactly exactly) {
-    return value > error ? 1 : value < -error ? -1 : exactly();
+    return std::abs(value) > error ? (value > 0) - (value < 0) : exactly();
   }
 
-  static Feature flat_triangle(const V* w) {
+  static void flat_triangle(const V* w, Feature& best) {
     const auto area = [&](int i, int j) { return w[i][0] * w[j][1] - w[i][1] * w[j][0]; };
     const S value[3] = {area(1, 2), area(2, 0), area(0, 1)};
     S m = 0;
@@ -166,21 +164,28 @@ struct SignedVolumes {
     const S error = 4 * std::numeric_limits<S>::epsilon() * m * m;
     const V origin = V::Zero();
     const int whole = orientation<S>(w[0], w[1], w[2]);
-    Feature best;
     bool inside = true;
     for (int i = 0; i < 3; ++i) {
       const int j = (i + 1) % 3, k = (i + 2) % 3;
       const int side = sure_sign(value[i], error, [&] { return orientation<S>(w[j], w[k], origin); });
       if (side == whole && whole != 0) continue;
       inside = false;
-      keep_nearer(best, segment(w, j, k));
+      segment(w, j, k, best);
     }
-    return inside ? enclosed({std::abs(value[0]), std::abs(value[1]), std::abs(value[2])}) : best;
+    if (inside) enclosed({std::abs(value[0]), std::abs(value[1]), std::abs(value[2])}, best);
   }
 
+  /// In three numbers, which stay in registers where a vector would go through memory.
+  struct CrossProduct {
+    S x, y, z;
+    CrossProduct(const V& a, const V& b) : x(a[1] * b[2] - a[2] * b[1]), y(a[2] * b[0] - a[0] * b[2]), z(a[0] * b[1] - a[1] * b[0]) {}
+    S dot(const V& v) const { return x * v[0] + y * v[1] + z * v[2]; }
+  };
+
   /// Volume of the tetrahedron with vertex i replaced by the origin, for all i: two cross products serve all four.
-  static Feature tetrahedron(const V* w) {
-    const V w01 = w[0].cross(w[1]), w23 = w[2].cross(w[3]);
+  /// A point inside a face that the origin lies beyond is the nearest of all: no other face need be asked.
+  static void tetrahedron(const V* w, Feature& best) {
+    const CrossProduct w01(w[0], w[1]), w23(w[2], w[3]);
     const S value[4] = {w23.dot(w[1]), -w23.dot(w[0]), w01.dot(w[3]), -w01.dot(w[2])};
     S m = 0;
     for (int i = 0; i < 4; ++i) m = std::max(m, w[i].cwiseAbs().maxCoeff());
@@ -195,14 +200,10 @@ struct SignedVolumes {
         const int turned = determinant_sign_wide<S>(WideVector<S>(w[j]), WideVector<S>(w[k]), WideVector<S>(w[l]));
         return i % 2 == 0 ? turned : -turned;
       });
-      if (side != whole || whole == 0) faces[beyond++] = i;
+      faces[beyond] = i, beyond += (side != whole) | (whole == 0);
     }
-    if (beyond == 0) return enclosed({std::abs(value[0]), std::abs(value[1]), std::abs(value[2]), std::abs(value[3])});
-    const auto face = [&](int i) { return triangle(w, (i + 1) % 4, (i + 2) % 4, (i + 3) % 4); };
-    if (beyond == 1) return face(faces[0]);
-    Feature best;
-    for (int k = 0; k < beyond; ++k) keep_nearer(best, face(faces[k]));
-    return best;
+    if (beyond == 0) return enclosed({std::abs(value[0]), std::abs(value[1]), std::abs(value[2]), std::abs(value[3])}, best);
+    for (int k = 0; k < beyond && best.count < 3; ++k) triangle(w, (faces[k] + 1) % 4, (faces[k] + 2) % 4, (faces[k] + 3) % 4, best);
   }
 };
 

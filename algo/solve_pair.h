@@ -66,7 +66,7 @@ class PairSolver {
              WarmStart<D, S>* warm = nullptr)
       : difference_(a, b, relative_pose<D, S>(pose_a, a.reference(), pose_b, b.reference(), scale)),
         frame_(pose_a, a.reference(), scale), settings_(settings), workspace_(workspace), trace_(trace),
-        radius_(static_cast<double>(difference_.radius())), polytopes_(a.polytope() && b.polytope()),
+        radius_(a.radius() + b.radius()), polytopes_(a.polytope() && b.polytope()),
         features_a_(features_a), features_b_(features_b), warm_(settings.start == Start::previous ? warm : nullptr) {}
 
   Result run(Query query) {
@@ -98,7 +98,7 @@ class PairSolver {
       for (int i = 0; i < warm_->size; ++i) kept[i] = difference_.kept(warm_->a[i], warm_->b[i]);
       options.kept = {kept.data(), static_cast<std::size_t>(warm_->size)};
     }
-    gjk_ = run_gjk(options);
+    run_gjk(options);
     if (warm_) keep_simplex();
     result_->status = gjk_status_names[static_cast<std::size_t>(gjk_.status)];
     result_->iterations += gjk_.iterations;
@@ -111,11 +111,11 @@ class PairSolver {
     }
   }
 
-  GjkResult<D, S> run_gjk(const GjkOptions<D, S>& options) {
+  void run_gjk(const GjkOptions<D, S>& options) {
     switch (settings_.closest_point) {
-      case ClosestPoint::johnson: return gjk<Johnson<D, S>>(difference_, options, trace_);
-      case ClosestPoint::voronoi: return gjk<VoronoiRegions<D, S>>(difference_, options, trace_);
-      default: return gjk<SignedVolumes<D, S>>(difference_, options, trace_);
+      case ClosestPoint::johnson: return gjk<Johnson<D, S>>(difference_, options, trace_, gjk_);
+      case ClosestPoint::voronoi: return gjk<VoronoiRegions<D, S>>(difference_, options, trace_, gjk_);
+      case ClosestPoint::signed_volumes: return gjk<SignedVolumes<D, S>>(difference_, options, trace_, gjk_);
     }
   }
 
@@ -155,8 +155,8 @@ class PairSolver {
 
   void distance() {
     result_->intersecting = overlapping();
-    result_->lower_bound = std::max(0.0, length(gjk_.lower_bound - radius_));
-    result_->upper_bound = std::max(0.0, length(gjk_.upper_bound - radius_));
+    set_bounds(gjk_.lower_bound, gjk_.upper_bound);
+    no_bound_below_zero();
     if (!result_->intersecting) return separated();
     set_common_point(*result_, frame_, gjk_.simplex.point_a(), gjk_.simplex.point_b(), radius_a(), radius_b());
   }
@@ -262,7 +262,7 @@ class PairSolver {
     if (query == Query::intersect) return;
     set_bounds(gap - difference_.rounding_floor(), gap + difference_.rounding_floor());
     if (query == Query::distance) {
-      result_->lower_bound = std::max(0.0, *result_->lower_bound), result_->upper_bound = std::max(0.0, *result_->upper_bound);
+      no_bound_below_zero();
       if (result_->intersecting) return set_common_point(*result_, frame_, nearest.a, nearest.b, radius_a(), radius_b());
     }
     witnesses(nearest.a, nearest.b, found.normal, gap);
@@ -300,7 +300,8 @@ class PairSolver {
     GjkOptions<D, S> options;
     options.direction = V(-found.normal);
     NoTrace silent;
-    const auto nearest = gjk<SignedVolumes<D, S>>(apart, options, silent);
+    GjkResult<D, S> nearest;
+    gjk<SignedVolumes<D, S>>(apart, options, silent, nearest);
     more_calls_ = apart.support_calls();
     return nearest;
   }
@@ -315,13 +316,18 @@ class PairSolver {
   void overlap_only() {
     result_->intersecting = true;
     result_->lower_bound.reset();
-    result_->upper_bound = length(-radius_);
+    result_->upper_bound = length(-radius_ + rounding());
   }
 
-  /// Bounds of the cores' signed distance.
+  /// From bounds of the cores' signed distance.
   void set_bounds(S lower, S upper) {
-    result_->lower_bound = length(static_cast<double>(lower) - radius_);
-    result_->upper_bound = length(static_cast<double>(upper) - radius_);
+    result_->lower_bound = length(static_cast<double>(lower) - radius_ - rounding());
+    result_->upper_bound = length(static_cast<double>(upper) - radius_ + rounding());
+  }
+  /// The radii are sums, and taking them off rounds once more.
+  double rounding() const { return 2 * std::numeric_limits<double>::epsilon() * radius_; }
+  void no_bound_below_zero() {
+    result_->lower_bound = std::max(0.0, *result_->lower_bound), result_->upper_bound = std::max(0.0, *result_->upper_bound);
   }
 
   void separated() { witnesses(gjk_.simplex.point_a(), gjk_.simplex.point_b(), -gjk_.v / gjk_.distance, gjk_.distance); }
@@ -332,9 +338,9 @@ class PairSolver {
     set_witnesses(*result_, frame_, a, b, normal, static_cast<double>(core_distance), ra, rb);
   }
 
-  double radius_a() const { return static_cast<double>(difference_.radius_a()); }
-  double radius_b() const { return static_cast<double>(difference_.radius_b()); }
-  double length(double working) const { return working * frame_.unit; }
+  double radius_a() const { return difference_.a().radius(); }
+  double radius_b() const { return difference_.b().radius(); }
+  double length(double working) const { return working * frame_.unit + 0.0; }  // no negative zero
 
   Difference difference_;
   WorkingFrame<D, S> frame_;

@@ -27,6 +27,13 @@ struct WorkingFrame {
   Vector<D, double> point(const Vector<D, S>& p) const { return vector(p) + origin; }
 };
 
+/// As assigning does, without asking at run time how long the vector is.
+template <int D>
+void set(std::optional<AnyVector>& to, const Vector<D, double>& v) {
+  to.emplace(D);
+  for (int i = 0; i < D; ++i) (*to)[i] = v[i];
+}
+
 /// From core points a, b (b - a along the normal, up to rounding) and the cores' signed distance to those of the bodies.
 /// Both are set from their middle, so that b - a = signed distance * normal holds to the last bit or two.
 template <int D, class S>
@@ -36,9 +43,9 @@ void set_witnesses(Result& result, const WorkingFrame<D, S>& frame, const Vector
   const Vector<D, double> n = frame.direction(normal), middle = frame.point(Vector<D, S>((a + b) / 2));
   result.signed_distance = distance * frame.unit + 0.0;  // no negative zero
   result.intersecting = distance <= 0;
-  result.normal.emplace(n);
-  result.witness_a.emplace(middle - n * ((core_distance / 2 - radius_a) * frame.unit));
-  result.witness_b.emplace(middle + n * ((core_distance / 2 - radius_b) * frame.unit));
+  set<D>(result.normal, n);
+  set<D>(result.witness_a, middle - n * ((core_distance / 2 - radius_a) * frame.unit));
+  set<D>(result.witness_b, middle + n * ((core_distance / 2 - radius_b) * frame.unit));
 }
 
 /// The answer of a distance query to an overlap: a point of both bodies between the nearest points of their cores.
