@@ -45,7 +45,7 @@ class Caster {
     const int n = static_cast<int>(bodies_.size());
     for (int i = 0; i < n; ++i)
       for (int j = i + 1; j < n; ++j)
-        if (moves_against(i, j)) {
+        if (n == 2 || moves_against(i, j)) {  // of two bodies at rest it is asked whether they overlap, of a scene's floor and walls it is not
           edges.push_back({i, j});
           for (const Shape& a : parts_[static_cast<std::size_t>(i)])
             for (const Shape& b : parts_[static_cast<std::size_t>(j)]) pairs_.push_back({i, j, &a, &b});
@@ -235,7 +235,8 @@ class Caster {
     Meeting m;
     m.status = found.status;
     if (found.status == CastStatus::initially_overlapping && start_ > 0) m.status = CastStatus::hit;
-    m.time = static_cast<double>(found.time) * (1 - start_);
+    constexpr double sooner = 1 - 4 * static_cast<double>(std::numeric_limits<S>::epsilon());  // the ray and the place on it are rounded
+    m.time = static_cast<double>(found.time) * sooner * (1 - start_);
     m.pair = p;
     if (m.status == CastStatus::miss) return m;
     // The places and the normal at that time, by GJK: the ray's own are as exact as its last plane.
@@ -335,16 +336,13 @@ class Caster {
     if (meeting.status == CastStatus::hit || meeting.status == CastStatus::initially_overlapping) touching_at_ = surely_touching(meeting);
   }
 
-  /// A time at which the pair certainly touches: a little later, and if that is too little, a little more.
-  std::optional<double> surely_touching(const Meeting& m) {
-    const Pair& p = m.pair;
-    if (m.gap.distance <= 0) return m.time;
-    Settings yes_no = inner_;
-    double step = std::max(2 * m.gap.distance / std::max(m.gap.bound, 1e-300), 4e-16);
-    for (int k = 0; k < 60 && m.time + step <= 1; ++k, step *= 2) {
-      Scene two = pair_at(p, m.time + step);
+  /// A time at which the pair certainly touches: now, or a little later, and if that is too little, a little more.
+  std::optional<double> surely_touching(const Meeting& m) const {
+    const double first = std::max(2 * m.gap.distance / std::max(m.gap.bound, 1e-300), 4e-16);
+    double step = 0;
+    for (int k = 0; k < 60 && m.time + step <= 1; ++k, step = std::max(first, 2 * step)) {
       TraceNumbers unused;
-      if (*solve_static(two, yes_no, nullptr, unused).signed_distance <= 0) return m.time + step;
+      if (*solve_static(pair_at(m.pair, m.time + step), inner_, nullptr, unused).upper_bound <= 0) return m.time + step;
     }
     return std::nullopt;
   }

@@ -20,6 +20,12 @@ struct Feature {
   double alignment = -2;
 };
 
+double size_of_points(const Points& points) {
+  double size = 0;
+  for (const AnyVector& p : points) size = std::max(size, (p - points[0]).cwiseAbs().maxCoeff());
+  return size;
+}
+
 AnyVector normal_of(const Points& face) {
   const int dimension = static_cast<int>(face[0].size());
   if (dimension == 2) {
@@ -54,10 +60,23 @@ std::vector<Points> faces_of(const Points& points, int dimension) {
   return faces;
 }
 
+/// An edge in the plane with what lies on its line as well: a corner within it may be one of the hull's by rounding.
+Points whole_edge(const Points& edge, const Points& all) {
+  const AnyVector along = edge[1] - edge[0], n = normal_of(edge);
+  Points whole = edge;
+  for (const AnyVector& p : all) {
+    if (n.dot(p - edge[0]) < -1e-12 * size_of_points(all)) continue;
+    if (along.dot(p - whole[0]) < 0) whole[0] = p;
+    if (along.dot(p - whole[1]) > 0) whole[1] = p;
+  }
+  return whole;
+}
+
 Feature feature(const Corners& body, const AnyVector& direction) {
   Feature best{body.points, -2};
   for (const Points& face : faces_of(body.points, static_cast<int>(direction.size())))
     if (const double cosine = normal_of(face).dot(direction); cosine > best.alignment) best = {face, cosine};
+  if (direction.size() == 2 && best.alignment > -2) best.points = whole_edge(best.points, body.points);
   return best;
 }
 
@@ -84,12 +103,6 @@ Points clip_to_sides(Points incident, const Points& reference, const AnyVector& 
     incident = clipped(incident, edge.cross(up), reference[i]);
   }
   return incident;
-}
-
-double size_of_points(const Points& points) {
-  double size = 0;
-  for (const AnyVector& p : points) size = std::max(size, (p - points[0]).cwiseAbs().maxCoeff());
-  return size;
 }
 
 Points in_world(const Points& points, const Pose& pose) {

@@ -59,7 +59,7 @@ class Mpr {
   MprResult<D, S> run() {
     trace_(MprBegan<V, Viewed>{v0_});
     // Centres that coincide leave the ray without a direction: any will do.
-    if (!(v0_.norm() > floor_)) v0_ = -4 * floor_ * V::Unit(0);
+    if (!(v0_.norm() > floor_)) v0_ = -(floor_ > 0 ? 4 * floor_ : S(1)) * V::Unit(0);
     return finish(search() ? refine() : status_);
   }
 

@@ -58,7 +58,7 @@ RayCastResult<Difference::D, typename Difference::S> ray_cast(Difference& differ
     if (++result.iterations > max_iterations) return end(CastStatus::iteration_limit);
     const auto p = difference.support(v);
     if constexpr (traced<Trace>) trace(SupportQueried<V, Viewed>{result.iterations, Phase::cast, v, p.vertex, p.a, p.b, p.w});
-    const S beyond = v.dot(x - p.w);
+    const S beyond = v.dot(x - p.w) - difference.rounding_floor() * distance;  // surely
     bool clipped = false;
     if (beyond > 0) {
       const S along = v.dot(ray);

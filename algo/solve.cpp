@@ -18,11 +18,11 @@ namespace gjkdbg {
 namespace {
 
 /// Lengths within 2^-range .. 2^range are left alone; others are brought near 1 by a power of two, so that products of
-/// four lengths neither overflow nor vanish. Scaling by a power of two rounds nothing.
+/// four lengths neither overflow nor vanish. Scaling by a power of two rounds nothing. (Below the normal numbers 2^1000 is near enough, and a number.)
 double working_scale(double size, int range) {
   if (size == 0) return 1;
   const int exponent = std::ilogb(size);
-  return std::abs(exponent) <= range ? 1 : std::ldexp(1.0, -exponent);
+  return std::abs(exponent) <= range ? 1 : std::ldexp(1.0, std::min(-exponent, 1000));
 }
 
 template <class S>

@@ -1,0 +1,137 @@
+// Cases at the edges that once went wrong: rounding that says "enclosed", corners within an edge, cores in one place, bodies at rest, lengths below
+// the normal numbers.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "algo/solve.h"
+#include "recordings/scene_file.h"
+#include "tests/support/random_scenes.h"
+
+namespace gjkdbg {
+namespace {
+
+Scene scene_of(const std::string& rest) { return parse_scene(R"({"format": "gjk-scene", "version": 1, )" + rest + "}", {}).scene; }
+
+Result run(const Scene& scene, const Method& method) { return solve(scene, resolve_settings(method, scene)); }
+
+Method johnson(Scalar scalar = Scalar::double_precision) {
+  Method m;
+  m.closest_point = ClosestPoint::johnson, m.scalar = scalar;
+  return m;
+}
+
+TEST(EdgeCases, NoSubAlgorithmOverrulesASupportPlane) {
+  const Scene scene = scene_of(R"("dimension": 3, "query": "distance", "bodies": [
+    {"shape": {"type": "cone", "radius": 0.3, "half_height": 0.4}},
+    {"shape": {"type": "cylinder", "radius": 0.3, "half_height": 0.7}, "pose": {"position": [-0.8, -0.1, 0.1], "rotation": {"axis": [1, 0, 0], "angle": 55}}}])");
+  const Result r = run(scene, johnson());
+  EXPECT_FALSE(r.intersecting);
+  EXPECT_NEAR(*r.signed_distance, 0.228868022329, 1e-11);
+  RandomScenes random(11);
+  for (int i = 0; i < pairs_asked(4000); ++i) {
+    Scene pair = random.scene(3, Family::general, false);
+    pair.query = Query::distance;
+    const Result truth = run(pair, {});
+    for (const Scalar scalar : {Scalar::double_precision, Scalar::float_precision}) {
+      const Result answer = run(pair, johnson(scalar));
+      EXPECT_LE(*answer.lower_bound, *answer.upper_bound) << i;
+      if (std::abs(*truth.signed_distance) > 1e-4) {
+        EXPECT_EQ(answer.intersecting, truth.intersecting) << i;
+      }
+    }
+  }
+}
+
+TEST(EdgeCases, ACornerWithinAnEdgeCutsNoContactOff) {
+  for (int degrees = 0; degrees < 360; ++degrees) {
+    const double turn = degrees * std::numbers::pi / 180;
+    Scene scene = scene_of(R"("dimension": 2, "query": "contact", "bodies": [
+      {"shape": {"type": "polygon", "points": [[-2, 1], [-2, -2], [-2, 2], [2, 0]]}}, {"shape": {"type": "box", "half_extents": [0.5, 3]}}])");
+    const Eigen::Matrix2d rotation = Eigen::Rotation2Dd(turn).toRotationMatrix();
+    for (Body& b : scene.bodies) b.pose.matrix = rotation;
+    scene.bodies[1].pose.position = rotation * Eigen::Vector2d(-2.4, 0);
+    const Result r = run(scene, {});
+    ASSERT_EQ(r.contacts->size(), 2u) << degrees;
+    EXPECT_NEAR(((*r.contacts)[0].point_a - (*r.contacts)[1].point_a).norm(), 4, 1e-9) << degrees;
+  }
+}
+
+TEST(EdgeCases, BoundsHoldTheDepthOfConcentricBalls) {
+  const Scene scene = scene_of(R"("dimension": 3, "query": "penetration", "bodies": [{"shape": {"type": "sphere", "radius": 0.1}}, {"shape": {"type": "sphere", "radius": 0.2}}])");
+  const long double exact = -(static_cast<long double>(0.1) + static_cast<long double>(0.2));
+  for (const Scalar scalar : {Scalar::double_precision, Scalar::float_precision}) {
+    Method m;
+    m.scalar = scalar;
+    const Result r = run(scene, m);
+    EXPECT_LE(*r.lower_bound, exact);
+    EXPECT_GE(*r.upper_bound, exact);
+    EXPECT_LE(*r.lower_bound, *r.signed_distance);
+    EXPECT_GE(*r.upper_bound, *r.signed_distance);
+    EXPECT_LT(*r.upper_bound - *r.lower_bound, 1e-15);
+  }
+}
+
+TEST(EdgeCases, MprNamesADirectionForOnePointTwice) {
+  const Scene scene = scene_of(R"("dimension": 3, "query": "penetration", "bodies": [
+    {"shape": {"type": "point", "points": [[1, 2, 3]]}}, {"shape": {"type": "point", "points": [[1, 2, 3]]}}])");
+  Method m;
+  m.name = MethodName::mpr;
+  const Result r = run(scene, m);
+  EXPECT_TRUE(r.intersecting);
+  EXPECT_DOUBLE_EQ(r.normal->norm(), 1);
+}
+
+TEST(EdgeCases, TwoBodiesAtRestAreAskedWhetherTheyOverlap) {
+  for (const MethodName name : {MethodName::conservative_advancement, MethodName::ray_cast, MethodName::root_finding})
+    for (const double x : {0.5, 2.5}) {
+      Scene scene = scene_of(R"("dimension": 3, "query": "cast", "bodies": [{"shape": {"type": "box", "half_extents": [1, 1, 1]}}, {"shape": {"type": "box", "half_extents": [1, 1, 1]}}])");
+      scene.bodies[1].pose.position[0] = x;
+      Method m;
+      m.name = name;
+      const Result r = run(scene, m);
+      EXPECT_EQ(r.status, x < 2 ? "initially_overlapping" : "miss");
+      EXPECT_EQ(r.intersecting, x < 2);
+      // Two walls at rest may overlap for all that the ball beside them cares.
+      scene.bodies.push_back(scene.bodies[0]);
+      scene.bodies[2].pose.position[1] = 5, scene.bodies[2].motion->velocity[0] = 1;
+      EXPECT_EQ(run(scene, m).status, "miss");
+    }
+}
+
+/// |p + v t| = r has the smaller root (-p.v - sqrt((p.v)^2 - v.v (p.p - r^2))) / v.v.
+TEST(EdgeCases, ARayInFloatIsNeverLate) {
+  RandomScenes random(5);
+  int hits = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Scene scene = scene_of(R"("dimension": 3, "query": "cast", "bodies": [{"shape": {"type": "sphere", "radius": 0.5}}, {"shape": {"type": "sphere", "radius": 0.25}}])");
+    const Eigen::Vector3d p(random.uniform(1, 3), random.uniform(-1, 1), random.uniform(-1, 1)), v(random.uniform(-6, -1), random.uniform(-1, 1), random.uniform(-1, 1));
+    scene.bodies[1].pose.position = p, scene.bodies[1].motion->velocity = v;
+    const double pv = p.dot(v), vv = v.dot(v), root = pv * pv - vv * (p.dot(p) - 0.5625);
+    if (root < 1e-3) continue;  // grazing
+    const double time = (-pv - std::sqrt(root)) / vv;
+    if (time <= 0 || time > 0.99) continue;
+    Method m;
+    m.name = MethodName::ray_cast, m.scalar = Scalar::float_precision;
+    const Result r = run(scene, m);
+    ASSERT_TRUE(r.intersecting) << i;
+    EXPECT_LE(*r.time, time) << i;
+    EXPECT_NEAR(*r.time, time, 1e-4) << i;
+    EXPECT_GE(r.touching_at.value_or(1), time) << i;
+    ++hits;
+  }
+  EXPECT_GT(hits, 200);
+}
+
+TEST(EdgeCases, LengthsBelowTheNormalNumbers) {
+  const Scene scene = scene_of(R"("dimension": 3, "query": "penetration", "bodies": [
+    {"shape": {"type": "box", "half_extents": [1e-310, 1e-310, 1e-310]}}, {"shape": {"type": "box", "half_extents": [1e-310, 1e-310, 1e-310]}, "pose": {"position": [1.5e-310, 0, 0]}}])");
+  const Result r = run(scene, {});
+  EXPECT_TRUE(r.intersecting);
+  EXPECT_NEAR(*r.signed_distance / 1e-310, -0.5, 1e-10);
+  EXPECT_NEAR(r.normal->norm(), 1, 1e-15);
+}
+
+}  // namespace
+}  // namespace gjkdbg
