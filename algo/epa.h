@@ -14,6 +14,7 @@
 #include <numeric>
 
 #include "algo/polytope.h"
+#include "algo/signed_volumes.h"
 #include "algo/trace.h"
 
 namespace gjkdbg {
@@ -257,6 +258,7 @@ class Epa {
   EpaResult<D, S> finish(EpaStatus status) {
     result_.status = status;
     if (status == EpaStatus::flat) best_height_ = lower_ = 0;
+    if (status == EpaStatus::separated) lower_ = std::min(lower_, -reach_of_nearest_face());
     result_.depth = best_height_ == 0 ? S(0) : best_height_;
     result_.lower_bound = lower_ - floor_;
     result_.upper_bound = best_height_ + floor_;
@@ -287,6 +289,14 @@ class Epa {
       result_.point_a += weights[i] * polytope_.points()[vertices[i]].a;
       result_.point_b += weights[i] * polytope_.points()[vertices[i]].b;
     }
+  }
+
+  /// How far from the origin a point of A - B lies: the plane of a face alone would be nearer, where the origin is beside the face.
+  S reach_of_nearest_face() {
+    const Face& face = polytope_.faces()[polytope_.nearest()];
+    std::array<V, D> w;
+    for (int i = 0; i < D; ++i) w[i] = at(face.vertices[i]);
+    return std::sqrt(SignedVolumes<D, S>::closest(w.data(), D).v_squared);
   }
 
   S projection_error(const std::array<int, D>& vertices, const std::array<S, D>& weights) const {
