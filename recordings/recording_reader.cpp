@@ -16,7 +16,7 @@ struct FieldReader {
 
   void read(const Json& json, const Place& place, std::string_view name, double& x) const {
     const bool bound = name == "lower_bound" || name == "upper_bound";
-    x = bound && json.is_null() ? std::numeric_limits<double>::quiet_NaN() : read_number(json, place);
+    x = bound ? number_or_null(json, place) : read_number(json, place);
   }
 
   void read(const Json& json, const Place& place, std::string_view name, AnyVector& v) const {
@@ -79,7 +79,8 @@ struct FieldReader {
       const auto found = json.find(f.name);
       const Place here(place, f.name);
       if (found == json.end()) reject(here, "missing-field", "is missing");
-      read(*found, here, f.name, event.*f.member);
+      if constexpr (std::is_same_v<E, recorded::LinesSolved>) event.*f.member = number_or_null(*found, here);  // null: a point, or parallel
+      else read(*found, here, f.name, event.*f.member);
       ++known;
     };
     std::apply([&](const auto&... f) { (one(f), ...); }, E::fields());
@@ -87,11 +88,14 @@ struct FieldReader {
   }
 
  private:
+  static double number_or_null(const Json& json, const Place& place) {
+    return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : read_number(json, place);
+  }
+
   AnyVector direction(const Json& json, const Place& place) const {
     if (!json.is_array() || json.size() != static_cast<std::size_t>(dimension)) return read_vector(json, place, dimension);
     AnyVector v(dimension);
-    for (std::size_t i = 0; i < json.size(); ++i)
-      v[static_cast<Eigen::Index>(i)] = json[i].is_null() ? std::numeric_limits<double>::quiet_NaN() : read_number(json[i], Place(place, i));
+    for (std::size_t i = 0; i < json.size(); ++i) v[static_cast<Eigen::Index>(i)] = number_or_null(json[i], Place(place, i));
     return v;
   }
 

@@ -87,6 +87,23 @@ class Program(unittest.TestCase):
         still, moved = (json.loads(run("dump", "sim-slope-slides", *flags).stdout)["result"]["support_calls"] for flags in ((), ("--start", "previous")))
         self.assertLess(moved, still)
 
+    def test_the_fastest_methods_recordings_go_through_every_command(self):
+        files = {}
+        for path in sorted((ROOT / "recordings/gallery").glob("*.scene.json")):
+            name = path.name.removesuffix(".scene.json")
+            out = self.path / f"{name}.recording.json"
+            if run("dump", name, "--name", "fastest", "-o", out).returncode != 2:  # 2: the scene asks for what only GJK has
+                files[out] = json.loads(out.read_text())["method"]["name"]
+        self.assertGreater(len(files), 100)
+        self.assertEqual(run("verify", *files).returncode, 0)
+        closed = [file for file, method in files.items() if method == "closed-form"]
+        self.assertGreater(len(closed), 10)
+        for file in closed:
+            self.assertEqual(run("check", file).stdout, "no findings: every step holds\n", file)
+            self.assertEqual(run("diff", file, file).returncode, 0, file)
+            if "render" in run("--help").stdout:
+                self.assertEqual(run("render", file, "-o", self.path / "step.svg").returncode, 0, file)
+
     def test_query_takes_a_scene_file(self):
         result = run("query", str(ROOT / "recordings/gallery/closed-form-crossing.scene.json"))
         self.assertEqual(result.returncode, 0)
