@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "debugger/commands/commands.h"
+#include "debugger/commands/input.h"
 #include "debugger/commands/lab.h"
 #include "debugger/commands/output_file.h"
 #include "debugger/lab/atlas.h"
@@ -99,8 +100,8 @@ void add_atlas(CLI::App& app, Status& status) {
   CLI::App* command = app.add_subcommand("atlas", "Stability where methods fail: heat map, table, JSON into a folder");
   command->add_flag("--quick", options->quick, "fewer cases");
   command->add_option("--method", options->methods, "only methods whose names begin so: default, johnson, sat, …");
-  command->add_option("-o,--output", options->output, "folder (atlas)");
-  command->add_option("--gate", options->gate, "a kept atlas.json: exit 1 when any cell is worse");
+  command->add_option("-o,--output", options->output, "folder (atlas)")->check(named());
+  command->add_option("--gate", options->gate, "a kept atlas.json: exit 1 when any cell is worse")->check(named());
   command->callback([options, &status] { status = options->run(); });
 }
 

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "debugger/commands/commands.h"
+#include "debugger/commands/input.h"
 #include "debugger/commands/lab.h"
 #include "debugger/commands/output_file.h"
 #include "debugger/lab/chart.h"
@@ -93,7 +94,7 @@ void add_chart(CLI::App& app, Status& status) {
   command->add_flag("--quick", options->options.quick, "fewer pairs and tolerances");
   command->add_option("--families", options->options.families, "only these, by name")->delimiter(',');
   command->add_option("--methods", options->options.methods, "only methods whose names begin so: default, johnson, sat, …")->delimiter(',');
-  command->add_option("-o,--output", options->output, "folder (chart)");
+  command->add_option("-o,--output", options->output, "folder (chart)")->check(named());
   command->callback([options, &status] { status = options->run(); });
 }
 

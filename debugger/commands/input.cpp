@@ -7,6 +7,8 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
+#include <iomanip>
+#include <sstream>
 
 #include "algo/solve.h"
 #include "recordings/replay.h"
@@ -41,6 +43,25 @@ fs::path scene_path(const std::string& argument) {
   return fs::exists(in_gallery, ignored) ? in_gallery : fs::path(argument);
 }
 
+CLI::Validator named() {
+  return CLI::Validator([](std::string& text) { return text.empty() ? std::string("must name something, not \"\"") : std::string(); }, "");
+}
+
+CLI::Validator between(double low, double high) {
+  const auto short_text = [](double x) {
+    std::ostringstream out;
+    out << std::setprecision(15) << x;
+    return out.str();
+  };
+  const std::string range = short_text(low) + " to " + short_text(high);
+  const auto check = [=](std::string& text) {
+    double x = 0;
+    const bool number = CLI::detail::lexical_cast(text, x);
+    return number && x >= low && x <= high ? std::string() : "must be a number from " + range + ", not " + text;
+  };
+  return CLI::Validator(check, "in [" + range + "]");
+}
+
 namespace {
 
 template <class Names>
@@ -64,9 +85,9 @@ void MethodFlags::add_to(CLI::App& app) {
   app.add_option("--stopping", stopping_, "GJK's stopping rule")->check(CLI::IsMember(list(stopping_names)))->group(group);
   app.add_option("--acceleration", acceleration_, "momentum of gjk-accelerated")->check(CLI::IsMember(list(acceleration_names)))->group(group);
   app.add_option("--start", start_, "where GJK begins")->check(CLI::IsMember(list(start_names)))->group(group);
-  app.add_option("--start_from,--start-from", start_from_, "recording whose last simplex to begin with")->group(group);
-  app.add_option("--tolerance", tolerance_, "relative gap of the bounds at which to stop")->group(group);
-  app.add_option("--max_iterations,--max-iterations", max_iterations_, "of each phase")->group(group);
+  app.add_option("--start_from,--start-from", start_from_, "recording whose last simplex to begin with")->check(named())->group(group);
+  app.add_option("--tolerance", tolerance_, "relative gap of the bounds at which to stop")->check(between(0, 1))->group(group);
+  app.add_option("--max_iterations,--max-iterations", max_iterations_, "of each phase")->check(between(1, 1000000))->group(group);
   app.add_option("--initial_direction,--initial-direction", initial_direction_, "first search direction, e.g. 1,0,0")->delimiter(',')->group(group);
 }
 

@@ -12,6 +12,7 @@
 
 namespace CLI {
 class App;
+class Validator;
 }
 
 namespace gjkdbg {
@@ -24,6 +25,11 @@ std::filesystem::path program_path();
 /// The file a command's argument means: itself when it exists, else the gallery scene of that name, else itself (and reading it
 /// will say that it is not there).
 std::filesystem::path scene_path(const std::string& argument);
+
+/// Of options that name a file, a folder or a program: not empty.
+CLI::Validator named();
+/// Of options that are a number: from `low` to `high`, and no NaN.
+CLI::Validator between(double low, double high);
 
 /// The method's settings as flags, named as in a scene file; those given override the scene's.
 class MethodFlags {

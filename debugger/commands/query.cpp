@@ -143,9 +143,9 @@ class Queries {
 void add_query(CLI::App& app, Status& status) {
   auto query = std::make_shared<Queries>();
   CLI::App* command = app.add_subcommand("query", "A scene a line in (JSON lines), a result a line out, in order");
-  command->add_option("PAIRS", query->input, "file of scenes, one a line; - for standard input; or a *.scene.json")->required();
-  command->add_option("-o,--output", query->output, "file to write; standard output unless given");
-  command->add_option("-j,--jobs", query->jobs, "threads")->check(CLI::Range(1, 256));
+  command->add_option("PAIRS", query->input, "file of scenes, one a line; - for standard input; or a *.scene.json")->required()->check(named());
+  command->add_option("-o,--output", query->output, "file to write; standard output unless given")->check(named());
+  command->add_option("-j,--jobs", query->jobs, "threads")->check(between(1, 256));
   query->flags.add_to(*command);
   command->callback([query, &status] { status = query->run(); });
 }

@@ -33,12 +33,12 @@ struct Run {
 void add_run(CLI::App& app, Status& status) {
   auto options = std::make_shared<Run>();
   CLI::App* command = app.add_subcommand("run", "Run your own GJK on a scene, then check what it did");
-  command->add_option("SCENE", options->scene, "scene file, or the name of a gallery scene")->required();
-  command->add_option("--exec", options->command, "the program, as a shell would start it")->required();
-  command->add_option("-o,--output", options->output, "file for the recording");
+  command->add_option("SCENE", options->scene, "scene file, or the name of a gallery scene")->required()->check(named());
+  command->add_option("--exec", options->command, "the program, as a shell would start it")->required()->check(named());
+  command->add_option("-o,--output", options->output, "file for the recording")->check(named());
   command->add_flag("--json", options->json, "findings as JSON");
-  command->add_option("--max-supports,--max_supports", options->limits.max_supports, "support queries (1000)")->check(CLI::Range(1, 10000000));
-  command->add_option("--timeout", options->limits.timeout, "seconds (10)")->check(CLI::Range(0.01, 86400.0));
+  command->add_option("--max-supports,--max_supports", options->limits.max_supports, "support queries (1000)")->check(between(1, 10000000));
+  command->add_option("--timeout", options->limits.timeout, "seconds (10)")->check(between(0.01, 86400.0));
   options->flags.add_to(*command);
   command->callback([options, &status] { status = options->run(); });
 }

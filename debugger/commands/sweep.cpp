@@ -163,13 +163,13 @@ struct Sweep {
 void add_sweep(CLI::App& app, Status& status) {
   auto options = std::make_shared<Sweep>();
   CLI::App* command = app.add_subcommand("sweep", "The gallery and random scenes through your own GJK");
-  command->add_option("--exec", options->command, "the program, as a shell would start it")->required();
-  command->add_option("--random", options->random, "how many random scenes (100)")->check(CLI::Range(0, 1000000));
-  command->add_option("--dimension", options->dimension, "only scenes of this dimension")->check(CLI::Range(1, 3));
-  command->add_option("--seed", options->seed, "of the random scenes (1)");
-  command->add_option("-o,--output", options->output, "folder for the scenes that fail, shrunk");
-  command->add_option("--max-supports,--max_supports", options->limits.max_supports, "support queries a scene (1000)")->check(CLI::Range(1, 10000000));
-  command->add_option("--timeout", options->limits.timeout, "seconds a scene (10)")->check(CLI::Range(0.01, 86400.0));
+  command->add_option("--exec", options->command, "the program, as a shell would start it")->required()->check(named());
+  command->add_option("--random", options->random, "how many random scenes (100)")->check(between(0, 1000000));
+  command->add_option("--dimension", options->dimension, "only scenes of this dimension")->check(between(1, 3));
+  command->add_option("--seed", options->seed, "of the random scenes (1)")->check(between(0, 4294967295.0));
+  command->add_option("-o,--output", options->output, "folder for the scenes that fail, shrunk")->check(named());
+  command->add_option("--max-supports,--max_supports", options->limits.max_supports, "support queries a scene (1000)")->check(between(1, 10000000));
+  command->add_option("--timeout", options->limits.timeout, "seconds a scene (10)")->check(between(0.01, 86400.0));
   command->callback([options, &status] { status = options->run(); });
 }
 

@@ -290,27 +290,27 @@ struct Render {
 void add_view(CLI::App& app, Status& status) {
   auto view = std::make_shared<View>();
   CLI::App* command = app.add_subcommand("view", "The window; the gallery when no file is named");
-  command->add_option("FILE", view->file, "scene or recording, or the name of a gallery scene");
-  command->add_option("--exec", view->command, "show this solver's run on the scene, and again whenever its file changes");
-  command->add_option("--compare", view->beside, "another recording or scene, shown beside it, in step");
-  command->add_option("--scale", view->options.scale, "size of everything; the monitor's unless given")->check(CLI::Range(0.5, 4.0));
-  command->add_option("--width", view->options.width, "of the window")->check(CLI::Range(320, 16384));
-  command->add_option("--height", view->options.height, "of the window")->check(CLI::Range(240, 16384));
+  command->add_option("FILE", view->file, "scene or recording, or the name of a gallery scene")->check(named());
+  command->add_option("--exec", view->command, "show this solver's run on the scene, and again whenever its file changes")->check(named());
+  command->add_option("--compare", view->beside, "another recording or scene, shown beside it, in step")->check(named());
+  command->add_option("--scale", view->options.scale, "size of everything; the monitor's unless given")->check(between(0.5, 4.0));
+  command->add_option("--width", view->options.width, "of the window")->check(between(320, 16384));
+  command->add_option("--height", view->options.height, "of the window")->check(between(240, 16384));
   command->callback([view, &status] { status = view->run(); });
 }
 
 void add_render(CLI::App& app, Status& status) {
   auto render = std::make_shared<Render>();
   CLI::App* command = app.add_subcommand("render", "The picture of a step, without a display");
-  command->add_option("FILE", render->file, "scene or recording, or the name of a gallery scene")->required();
-  command->add_option("-o,--output", render->output, ".png, .svg, or with --all .gif")->required();
+  command->add_option("FILE", render->file, "scene or recording, or the name of a gallery scene")->required()->check(named());
+  command->add_option("-o,--output", render->output, ".png, .svg, or with --all .gif")->required()->check(named());
   command->add_option("--step", render->step, "from 0; negative from the end; last unless given");
   command->add_flag("--all", render->all, "the replay as an animation");
   command->add_flag("--light", render->light, "dark on white");
   command->add_flag("--window", render->window, "the whole window, not only the two views");
-  command->add_option("--width", render->width, "pixels")->check(CLI::Range(64, 8192));
-  command->add_option("--height", render->height, "pixels")->check(CLI::Range(64, 8192));
-  command->add_option("--scale", render->scale, "size of text and marks")->check(CLI::Range(0.5, 4.0));
+  command->add_option("--width", render->width, "pixels")->check(between(64, 8192));
+  command->add_option("--height", render->height, "pixels")->check(between(64, 8192));
+  command->add_option("--scale", render->scale, "size of text and marks")->check(between(0.5, 4.0));
   command->callback([render, &status] { status = render->run(); });
 }
 
