@@ -38,7 +38,7 @@ Gallery read_gallery(const std::filesystem::path& directory) {
   try {
     return {directory, lessons_from_json(parse_json(text))};
   } catch (const Error& e) {
-    throw Error(e.code(), e.message(), file.string() + (e.where().empty() ? "" : ": " + e.where()));
+    throw e.in(file.string());
   }
 }
 

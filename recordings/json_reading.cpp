@@ -12,18 +12,41 @@ void reject(const Place& place, const std::string& code, const std::string& mess
 
 namespace {
 
-std::string line_and_column(std::string_view text, std::size_t byte) {
+std::string line_and_column(std::string_view text, std::size_t byte, std::size_t first_line) {
   const std::string_view before = text.substr(0, std::min(byte > 0 ? byte - 1 : 0, text.size()));
-  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
+  const std::size_t line = first_line + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
   const std::size_t newline = before.rfind('\n');
   const std::size_t column = before.size() - (newline == std::string_view::npos ? 0 : newline + 1) + 1;
   return "line " + std::to_string(line) + ", column " + std::to_string(column);
+}
+
+/// Past the end of the string that begins at `i`.
+std::size_t past_string(std::string_view text, std::size_t i) {
+  for (++i; i < text.size() && text[i] != '"'; ++i)
+    if (text[i] == '\\') ++i;
+  return i + 1;
+}
+
+constexpr std::size_t deepest = 64;
+
+/// Where nesting becomes too deep: the byte's number, from 1.
+std::size_t too_deep(std::string_view text) {
+  std::size_t depth = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') i = past_string(text, i) - 1;
+    else if (text[i] == '[' || text[i] == '{') ++depth;
+    else if (text[i] == ']' || text[i] == '}') --depth;
+    if (depth > deepest) return i + 1;
+  }
+  return text.size();
 }
 
 /// Builds a document as nlohmann's own parser does, but refuses what that lets pass in silence: a field given twice, and nesting so
 /// deep that only a hostile file has it.
 class JsonBuilder {
  public:
+  JsonBuilder(std::string_view text, std::size_t first_line) : text_(text), first_line_(first_line) {}
+
   using number_integer_t = Json::number_integer_t;
   using number_unsigned_t = Json::number_unsigned_t;
   using number_float_t = Json::number_float_t;
@@ -48,15 +71,14 @@ class JsonBuilder {
     member_ = &object[name];
     return true;
   }
-  bool parse_error(std::size_t, const std::string&, const Json::exception& e) {
+  bool parse_error(std::size_t byte, const std::string& token, const Json::exception& e) {
     if (const auto* syntax = dynamic_cast<const nlohmann::json::parse_error*>(&e)) throw *syntax;
-    throw Error("bad-json", e.what());
+    add(nullptr);  // so that the pointer counts it
+    throw Error("non-finite", "the number " + token.substr(0, 40) + " is too large", open_.empty() ? line_and_column(text_, byte, first_line_) : pointer());
   }
   Json take() { return std::move(root_); }
 
  private:
-  static constexpr std::size_t deepest = 64;
-
   template <class T>
   bool add(T&& value) {
     place() = std::forward<T>(value);
@@ -69,7 +91,7 @@ class JsonBuilder {
     return open_.back()->back();
   }
   bool open(Json&& empty) {
-    if (open_.size() >= deepest) throw Error("too-deep", "is nested too deeply");
+    if (open_.size() >= deepest) throw Error("too-deep", "is nested too deeply", line_and_column(text_, too_deep(text_), first_line_));
     Json& here = place();
     here = std::move(empty);
     open_.push_back(&here);
@@ -82,12 +104,14 @@ class JsonBuilder {
     return true;
   }
   std::string pointer() const {
+    const Place root;
     std::string out;
-    for (std::size_t i = 0; i < open_.size(); ++i)
-      out += "/" + (open_[i]->is_object() ? keys_[i] : std::to_string(open_[i]->size() - 1));
+    for (std::size_t i = 0; i < open_.size(); ++i) out += (open_[i]->is_object() ? Place(root, keys_[i]) : Place(root, open_[i]->size() - 1)).pointer();
     return out;
   }
 
+  std::string_view text_;
+  std::size_t first_line_;
   Json root_;
   std::vector<Json*> open_;  ///< never moved while open: only the innermost grows
   std::vector<std::string> keys_;  ///< the latest key of each
@@ -145,23 +169,47 @@ bool parse_fast(std::string_view text, Json& json) {
 }
 
 /// The careful way: slower, and able to say what is wrong and where.
-Json parse_carefully(std::string_view text) {
+Json parse_carefully(std::string_view text, std::size_t first_line = 1) {
   try {
-    JsonBuilder builder;
+    JsonBuilder builder(text, first_line);
     Json::sax_parse(text.begin(), text.end(), &builder);
     return builder.take();
   } catch (const nlohmann::json::parse_error& e) {
-    throw Error("bad-json", "is no JSON: " + reason(e.what()), line_and_column(text, e.byte));
-  } catch (const nlohmann::json::exception& e) {
-    throw Error("bad-json", reason(e.what()));
+    throw Error("bad-json", "is no JSON: " + reason(e.what()), line_and_column(text, e.byte, first_line));
   }
 }
 
 }  // namespace
 
-Json parse_json(std::string_view text) {
+Json parse_json(std::string_view text, std::size_t first_line) {
   Json json;
-  return parse_fast(text, json) ? json : parse_carefully(text);
+  return parse_fast(text, json) ? json : parse_carefully(text, first_line);
+}
+
+std::string member_text(std::string_view text, std::string_view key) {
+  constexpr std::string_view space = " \t\r\n";
+  std::string member, value;
+  int depth = 0;
+  bool in_value = false;
+  for (std::size_t i = 0; i < text.size();) {
+    const char c = text[i];
+    const std::size_t end = c == '"' ? past_string(text, i) : i + 1;
+    const std::string_view word = text.substr(i, end - i);
+    i = end;
+    if (space.find(c) != std::string_view::npos) continue;
+    if (depth == 1 && (c == ',' || c == '}')) {
+      if (in_value && member == key) return value;
+      in_value = false;
+    } else if (depth == 1 && c == ':' && !in_value) {
+      in_value = true, value.clear();
+    } else if (in_value) {
+      value += word;
+    } else if (c == '"') {
+      member = Json::parse(word).get<std::string>();
+    }
+    depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
+  }
+  return {};
 }
 
 namespace {

@@ -41,8 +41,11 @@ class Place {
 
 [[noreturn]] void reject(const Place& place, const std::string& code, const std::string& message);
 
-/// Parses text; throws Error with "line L, column C".
-Json parse_json(std::string_view text);
+/// Parses text; throws Error with "line L, column C", where the text's first line is number `first_line`, or a JSON pointer.
+Json parse_json(std::string_view text, std::size_t first_line = 1);
+
+/// The member of an object as it is written in text that `parse_json` took, without the space around words; empty when there is none.
+std::string member_text(std::string_view text, std::string_view key);
 
 /// Parses an object whose member `list` may be long: `rest` gets the object with that member emptied (if it is an array), then `element`
 /// each of its elements, which are not kept. Throws as parse_json does, and what the two throw.

@@ -237,7 +237,7 @@ Recording read_recording(const std::filesystem::path& file) {
   try {
     return parse_recording(text, file.parent_path());
   } catch (const Error& e) {
-    throw Error(e.code(), e.message(), file.string() + (e.where().empty() ? "" : ": " + e.where()));
+    throw e.in(file.string());
   }
 }
 

@@ -1,9 +1,9 @@
 #include "recordings/scene_file.h"
 
-#include <fstream>
 #include <sstream>
 
 #include "recordings/json_reading.h"
+#include "shapes/input_file.h"
 
 namespace gjkdbg {
 
@@ -12,8 +12,7 @@ SceneFile parse_scene(std::string_view text, const std::filesystem::path& direct
 }
 
 std::string read_text_file(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) throw Error("missing-file", "cannot be read", file.string());
+  std::ifstream in = open_input(file);
   std::ostringstream text;
   text << in.rdbuf();
   if (in.bad()) throw Error("missing-file", "cannot be read", file.string());
@@ -25,7 +24,7 @@ SceneFile read_scene(const std::filesystem::path& file) {
   try {
     return parse_scene(text, file.parent_path());
   } catch (const Error& e) {
-    throw Error(e.code(), e.message(), file.string() + (e.where().empty() ? "" : ": " + e.where()));
+    throw e.in(file.string());
   }
 }
 

@@ -25,6 +25,9 @@ class Error : public std::runtime_error {
   /// The same error, seen from one level further out: `prefix` is put before the place.
   Error within(const std::string& prefix) const { return Error(code_, message_, prefix + where_); }
 
+  /// The same error, as of a file: its name is put before the place.
+  Error in(const std::string& file) const { return Error(code_, message_, file + (where_.empty() ? "" : ": " + where_)); }
+
   /// "place: message", or the message alone when the place is empty.
   std::string line() const { return where_.empty() ? message_ : where_ + ": " + message_; }
 

@@ -144,6 +144,32 @@ class Program(unittest.TestCase):
         self.refused(run("frobnicate"), "--help")
         self.refused(run("verify", self.scene), "/format")
 
+    def test_numbers_that_json_cannot_hold_and_deep_nesting_have_a_place(self):
+        text = json.dumps(CUBES)
+        self.refused(run("dump", self.write("bad.json", text.replace("0.9", "1e999"))), "bad.json: /bodies/1/pose/position/0: ", "1e999")
+        self.refused(run("dump", self.write("bad.json", text.replace('"dimension": 3', '"dimension": 1e999'))), "bad.json: /dimension: ")
+        self.refused(run("dump", self.write("bad.json", "\n 1e999")), "bad.json: line 2, column ")
+        self.refused(run("dump", self.write("bad.json", '{"a]":"\\"[",\n"b":' + "[" * 100)), "bad.json: line 2, column 68: is nested too deeply")
+        lines = [text, text.replace("0.9", "1e999"), "[" * 100, text, "{nonsense"]
+        answers = [json.loads(line) for line in run("query", self.write("pairs.jsonl", "\n".join(lines))).stdout.splitlines()]
+        self.assertEqual([a["error"]["where"] for a in answers if "error" in a], ["/bodies/1/pose/position/0", "line 3, column 65", "line 5, column 3"])
+
+    def test_options_take_numbers_in_range(self):
+        recording = self.path / "cubes.recording.json"
+        run("dump", self.scene, "-o", recording)
+        png = ("-o", self.path / "r.png")
+        options = [(("dump", self.scene), "--tolerance"), (("dump", self.scene), "--max_iterations"), (("dump", self.scene), "--initial_direction"),
+                   (("query", self.scene), "--jobs"), (("run", self.scene, "--exec", "true"), "--timeout"), (("run", self.scene, "--exec", "true"), "--max-supports"),
+                   (("sweep", "--exec", "true"), "--timeout"), (("sweep", "--exec", "true"), "--max-supports"), (("sweep", "--exec", "true"), "--random"),
+                   (("sweep", "--exec", "true"), "--dimension"), (("sweep", "--exec", "true"), "--seed")]
+        if "render" in run("--help").stdout:
+            options += [(("render", recording, *png), option) for option in ("--scale", "--width", "--height", "--step")]
+            options += [(("view", recording), option) for option in ("--scale", "--width", "--height")]
+        for command, option in options:
+            for value in ("nan", "inf", "-inf", "1e999", "-1e300", "two", ""):
+                result = run(*command, f"{option}={value}")
+                self.refused(result, option)
+
     def test_help_and_version(self):
         self.assertEqual(run("--help").returncode, 0)
         self.assertIn("dump", run("--help").stdout)

@@ -73,7 +73,7 @@ struct AtlasCommand {
         }
       }
     } catch (const Error& e) {
-      throw Error(e.code(), e.message(), file + (e.where().empty() ? "" : ": " + e.where()));
+      throw e.in(file);
     }
     return kept;
   }

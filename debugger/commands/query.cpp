@@ -18,6 +18,7 @@
 #include "recordings/comparison.h"
 #include "recordings/json_reading.h"
 #include "recordings/json_writing.h"
+#include "shapes/input_file.h"
 
 namespace gjkdbg {
 namespace {
@@ -46,8 +47,7 @@ class Queries {
   int run() {
     std::ifstream file;
     if (input != "-") {
-      file.open(input, std::ios::binary);
-      if (!file || std::filesystem::is_directory(input)) throw Error("missing-file", "cannot be read", input);
+      file = open_input(input);
       directory_ = std::filesystem::path(input).parent_path();
     }
     std::istream& in = input == "-" ? std::cin : file;
@@ -93,7 +93,7 @@ class Queries {
     if (line.find_first_not_of(" \t\r") == std::string::npos) return;
     Json json;
     try {
-      json = parse_json(line);
+      json = parse_json(line, number);
       const SceneFile scene = scene_from_json(json, directory_);
       const Result result = solve(scene.scene, flags.resolve(scene, ""));
       append_result(answers.text, result, scene.scene.query, scene.id);

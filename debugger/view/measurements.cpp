@@ -108,7 +108,7 @@ MeasurementKind read_measurements(const std::filesystem::path& file, Measurement
     if (format == "gjk-atlas") return measurements.atlas = read_atlas(top), MeasurementKind::atlas;
     return MeasurementKind::neither;
   } catch (const Error& e) {
-    throw Error(e.code(), e.message(), file.string() + (e.where().empty() ? "" : ": " + e.where()));
+    throw e.in(file.string());
   }
 }
 

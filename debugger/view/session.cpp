@@ -48,7 +48,7 @@ void Session::open(const std::filesystem::path& file) {
       open(std::move(read), name);
     }
   } catch (const Error& e) {
-    throw Error(e.code(), e.message(), file.string() + (e.where().empty() ? "" : ": " + e.where()));
+    throw e.in(file.string());
   }
 }
 

@@ -1,0 +1,12 @@
+// Files that are read.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+
+namespace gjkdbg {
+
+/// Opened for reading, bytes as they are. Throws Error that says why it cannot be: not there, a directory, …
+std::ifstream open_input(const std::filesystem::path& file);
+
+}  // namespace gjkdbg
