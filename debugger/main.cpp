@@ -1,10 +1,14 @@
 // gjkdbg: one program, a command each (see debugger/commands/).
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <iostream>
 
 #include "debugger/commands/commands.h"
+#include "recordings/json_reading.h"
 #include "recordings/recording.h"
 
 namespace {
@@ -15,11 +19,18 @@ std::string one_line(std::string text) {
   return text;
 }
 
-}  // namespace
+/// What is wrong with the command line; of a command that there is not, its name.
+std::string usage_error(const CLI::App& app, const CLI::ParseError& e) {
+  const std::vector<std::string> words = app.remaining();
+  if (!app.get_subcommands().empty() || words.empty()) return e.what();
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
+  const std::string near = gjkdbg::nearest_name(words[0], {names.begin(), names.end()});
+  return "\"" + words[0] + "\" is no command" + (near.empty() ? "" : "; did you mean \"" + near + "\"?");
+}
 
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   using namespace gjkdbg;
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that leaves early is a write error, reported as one
   CLI::App app("The debugger for GJK and EPA", "gjkdbg");
   app.set_version_flag("--version", generator_name());
   app.require_subcommand(1);
@@ -42,7 +53,7 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);
-    std::cerr << "gjkdbg: " << one_line(e.what()) << " (see gjkdbg --help)\n";
+    std::cerr << "gjkdbg: " << one_line(usage_error(app, e)) << " (see gjkdbg --help)\n";
     return exit_bad_input;
   } catch (const Error& e) {
     std::cerr << "gjkdbg: " << one_line(e.line()) << "\n";
@@ -52,4 +63,17 @@ int main(int argc, char** argv) {
     return exit_bad_input;
   }
   return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // a reader that leaves early is a write error, reported as one
+  const int status = run(argc, argv);
+  // What was printed is done only when it has arrived.
+  errno = 0;
+  std::cout.flush();
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout) return status;
+  if (status != gjkdbg::exit_bad_input) std::cerr << "gjkdbg: standard output: cannot be written" << (errno != 0 ? std::string(": ") + std::strerror(errno) : "") << "\n";
+  return gjkdbg::exit_bad_input;
 }

@@ -141,7 +141,17 @@ class Program(unittest.TestCase):
         self.refused(run("dump", self.scene, "--scalar", "half"), "--scalar")
         self.refused(run("dump", self.scene, "--name", "gjk-boolean"), "--name")
         self.refused(run("dump"), "SCENE")
-        self.refused(run("frobnicate"), "--help")
+        self.refused(run("frobnicate"), '"frobnicate" is no command', "--help")
+        self.refused(run("dupm", self.scene), "did you mean", "dump")
+        self.refused(run("--frobnicate"), "--help")
+        self.refused(subprocess.run([PROGRAM], capture_output=True, text=True), "--help")
+        for command in ("dump", "check", "query", "verify"):
+            self.refused(run(command, self.path), "is a directory")
+            self.refused(run(command, ""), "must name something")
+        self.refused(run("dump", self.scene, "-o", ""), "--output", "must name something")
+        self.refused(run("query", self.scene, "-o", ""), "--output", "must name something")
+        self.refused(run("run", "cast-ray", "--exec", "true"), "cast-ray.scene.json: /query")
+        self.refused(run("run", self.scene, "--exec", ""), "--exec")
         self.refused(run("verify", self.scene), "/format")
 
     def test_numbers_that_json_cannot_hold_and_deep_nesting_have_a_place(self):
@@ -186,9 +196,13 @@ class Program(unittest.TestCase):
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
     def test_full_disk(self):
-        with open("/dev/full", "w") as full:
-            result = subprocess.run([PROGRAM, "dump", str(self.scene)], stdout=full, stderr=subprocess.PIPE, text=True)
-        self.refused(result, "cannot be written")
+        recording = self.path / "cubes.recording.json"
+        run("dump", self.scene, "-o", recording)
+        for arguments in (("dump", self.scene), ("query", self.scene), ("scenes",), ("--help",), ("--version",), ("verify", recording), ("check", recording), ("check", recording, "--json"),
+                          ("diff", recording, recording), ("run", self.scene, "--exec", "true"), ("sweep", "--exec", "true", "--random", 1, "--dimension", 1)):
+            with open("/dev/full", "w") as full:
+                result = subprocess.run([PROGRAM, *map(str, arguments)], stdout=full, stderr=subprocess.PIPE, text=True)
+            self.refused(result, "standard output", "cannot be written")
 
     def test_verify_and_diff(self):
         a, b = self.path / "a.json", self.path / "b.json"
@@ -251,6 +265,10 @@ class Program(unittest.TestCase):
         self.assertEqual(gif.read_bytes()[:6], b"GIF89a")
         self.refused(run("render", self.scene, "--step", 999, "-o", svg), "--step 999")
         self.refused(run("render", self.scene, "-o", self.path / "picture.bmp"), "picture.bmp")
+        for name in ("picture.svg", "picture.png"):
+            self.refused(run("render", self.scene, "--all", "-o", self.path / name), name, ".gif")
+            self.assertFalse((self.path / name).exists())
+        self.refused(run("render", self.scene, "-o", ""), "--output")
 
     def test_chart(self):
         folder = self.path / "chart"

@@ -20,11 +20,21 @@ struct Run {
   int run() const {
     const std::string file = scene_path(scene).string();
     const SceneFile read = read_scene(file);
-    const Recording recording = run_solver(read, flags.resolve(read, file), command, limits);
+    const Recording recording = solved(read, file);
     if (!output.empty()) write_output(output, recording_to_text(recording));
     const std::vector<Finding> findings = check(recording);
     if (output != "-") print_findings(findings, json);
     return findings.empty() ? exit_done : exit_difference;
+  }
+
+ private:
+  Recording solved(const SceneFile& read, const std::string& file) const {
+    const Settings settings = flags.resolve(read, file);
+    try {
+      return run_solver(read, settings, command, limits);
+    } catch (const Error& e) {
+      throw e.where().starts_with("/") ? e.in(file) : e;  // of the scene, or of the program
+    }
   }
 };
 

@@ -204,6 +204,7 @@ struct Render {
 
   int run() const {
     const std::string path = scene_path(file).string();
+    if (all && !output.ends_with(".gif")) throw Error("unknown-format", "--all writes .gif", "-o " + output);
     if (output.ends_with(".svg")) return svg(path);
     Headless host(width, height, scale, read_gallery(gallery_directory()));
     App& app = host.app();
@@ -241,7 +242,6 @@ struct Render {
   }
 
   int animation(Headless& host) const {
-    if (!output.ends_with(".gif")) throw Error("unknown-format", "--all writes .gif", "-o " + output);
     std::vector<std::vector<std::uint8_t>> frames;
     const std::size_t count = host.app().session.count();
     for (std::size_t i = 0; i < count; ++i) {
