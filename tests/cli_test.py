@@ -57,6 +57,15 @@ class Program(unittest.TestCase):
         self.assertAlmostEqual(recording["result"]["signed_distance"], -0.1, 12)
         self.assertEqual(recording["result"]["normal"], [1, 0, 0])
 
+    def test_the_examples_of_the_readme(self):
+        examples = (ROOT / "README.md").read_text().split("Without a display:")[1].split("```")[1]
+        commands = [c.split("#")[0].split()[1:] for line in examples.splitlines() for c in line.split(";") if c.strip().startswith("./gjkdbg")]
+        self.assertGreater(len(commands), 8)
+        for command in commands:
+            if command[0] in ("scenes", "dump", "verify", "diff"):
+                result = run(*command, cwd=self.path)
+                self.assertEqual((result.returncode, result.stderr), (1 if command[0] == "diff" else 0, ""), command)
+
     def test_dump_by_gallery_name(self):
         self.assertEqual(run("dump", "two-unit-cubes", cwd=self.path).returncode, 0)
 
