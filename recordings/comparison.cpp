@@ -61,23 +61,23 @@ std::vector<std::string> missed_expectations(const SceneFile& scene, const Resul
   std::vector<std::string> missed;
   if (!scene.expect) return missed;
   const Expectation& e = *scene.expect;
-  const auto number = [](double x) {
-    std::string text;
-    append_number(text, x);
-    return text;
+  const auto text = [](const auto& x) {
+    std::string out;
+    if constexpr (std::is_same_v<decltype(x), const double&>) append_number(out, x);
+    else append_vector(out, x);
+    return out;
   };
+  // What the query does not answer, or this run does not know, is not as expected either.
+  const auto compare = [&](const char* name, const auto& is, const auto& expected, const auto& error) {
+    if (!expected || (is && error(*is, *expected) <= e.tolerance)) return;
+    missed.push_back(std::string(name) + " is " + (is ? text(*is) : "not known") + ", expected " + text(*expected) + " within " + text(e.tolerance));
+  };
+  const auto difference = [](double a, double b) { return std::abs(a - b); };
   if (e.intersecting && *e.intersecting != result.intersecting)
     missed.push_back(std::string("intersecting is ") + (result.intersecting ? "true" : "false") + ", expected " + (*e.intersecting ? "true" : "false"));
-  if (e.signed_distance && result.signed_distance && !(std::abs(*result.signed_distance - *e.signed_distance) <= e.tolerance))
-    missed.push_back("signed_distance is " + number(*result.signed_distance) + ", expected " + number(*e.signed_distance) + " within " + number(e.tolerance));
-  if (e.time && !(result.time && std::abs(*result.time - *e.time) <= e.tolerance))
-    missed.push_back("time is " + (result.time ? number(*result.time) : std::string("not known")) + ", expected " + number(*e.time) + " within " + number(e.tolerance));
-  if (e.normal && result.normal && !((*result.normal - *e.normal).cwiseAbs().maxCoeff() <= e.tolerance)) {
-    std::string is, expected;
-    append_vector(is, *result.normal);
-    append_vector(expected, *e.normal);
-    missed.push_back("normal is " + is + ", expected " + expected + " within " + number(e.tolerance));
-  }
+  compare("signed_distance", result.signed_distance, e.signed_distance, difference);
+  compare("time", result.time, e.time, difference);
+  compare("normal", result.normal, e.normal, [](const AnyVector& a, const AnyVector& b) { return (a - b).cwiseAbs().maxCoeff(); });
   return missed;
 }
 

@@ -132,10 +132,16 @@ class Program(unittest.TestCase):
         self.assertNotIn("epa", "".join(text.split('"events"')[1]))
 
     def test_wrong_expectations_exit_1(self):
-        for expect in ({"intersecting": False}, {"signed_distance": -0.2}, {"normal": [0, 1, 0]}):
+        for expect in ({"intersecting": False}, {"signed_distance": -0.2}, {"normal": [0, 1, 0]}, {"time": 0.5}):
             result = run("dump", self.write("e.json", {**CUBES, "expect": expect}))
             self.assertEqual(result.returncode, 1)
             self.assertIn("/expect", result.stderr)
+        # What the query does not answer is no match either.
+        for query in ("intersect", "cast"):
+            for expect in ({"signed_distance": -0.1}, {"normal": [1, 0, 0]}) if query == "intersect" else ({"signed_distance": -0.1},):
+                result = run("dump", self.write("e.json", {**CUBES, "query": query, "expect": expect}))
+                self.assertEqual(result.returncode, 1, (query, expect))
+                self.assertIn("is not known, expected", result.stderr)
         self.assertEqual(run("dump", self.write("e.json", {**CUBES, "expect": {"signed_distance": -0.1, "tolerance": 1e-9}})).returncode, 0)
 
     def test_bad_input_is_one_line(self):
