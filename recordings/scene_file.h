@@ -29,7 +29,7 @@ struct SceneFile {
   Scene scene;
   Method method;
   std::optional<Expectation> expect;
-  std::string id;         ///< "id" of a line of `query`, as JSON text (string or number); empty when absent
+  std::string id;         ///< "id", anything, as JSON text; empty when absent
   std::filesystem::path directory;  ///< where relative mesh paths start; not written
 };
 

@@ -48,10 +48,7 @@ class SceneReader {
     text("name", file_.scene.name);
     text("description", file_.scene.description);
     text("source", file_.scene.source);
-    if (const auto it = json.find("id"); it != json.end()) {
-      if (it->is_structured()) reject(Place(place, "id"), "wrong-type", "must be a string, a number, true, false or null");
-      file_.id = it->dump();
-    }
+    if (const auto it = json.find("id"); it != json.end()) file_.id = it->dump();
     if (const auto it = json.find("tags"); it != json.end()) {
       const Place at(place, "tags");
       if (!it->is_array()) reject(at, "wrong-type", "must be an array of strings");

@@ -249,6 +249,15 @@ class Program(unittest.TestCase):
             self.assertEqual((answers[7]["id"], answers[7]["line"], answers[7]["error"]["where"]), ("seven", 8, "/dimension"))
             self.assertEqual([a["id"] for a in answers if "error" not in a], [i for i in range(20) if i not in (3, 7, 11)])
         self.assertEqual(run("query", self.write("good.jsonl", lines[0] + "\n")).returncode, 0)
+        # Ids come back as they were, whatever they are.
+        ids = ["12345678901234567890123", "-0.10000000000000000000001", '{"a": [1, {"id": 2.50}], "b, }": "\\"]"}', "[1e2, null]", '"\\u00e9"', "true", "null"]
+        lines = [json.dumps(CUBES)[:-1] + ', "id" : ' + i + broken for i in ids for broken in ("}", ', "dimensoin": 1}')]
+        answers = run("query", self.write("ids.jsonl", "\n".join(lines))).stdout.splitlines()
+        self.assertEqual([json.loads(a)["id"] for a in answers], [json.loads(i) for i in ids for _ in range(2)])
+        for i, answer in zip(ids[:2], answers[::2]):
+            self.assertIn(f'"id":{i},', answer)
+        dumped = json.loads(run("dump", self.write("id.json", {**CUBES, "id": {"a": [1, 2.5]}})).stdout)
+        self.assertEqual(dumped["scene"]["id"], {"a": [1, 2.5]})
         self.assertEqual(run("query", "-", input=lines[0]).returncode, 0)
         expecting = json.dumps({**CUBES, "expect": {"intersecting": False}})
         self.assertEqual(run("query", self.write("expect.jsonl", expecting)).returncode, 1)

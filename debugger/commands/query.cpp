@@ -31,11 +31,12 @@ struct Answers {
   std::size_t errors = 0, missed = 0;
 };
 
-/// The id of a line that may be broken elsewhere; "null" when it has none.
-std::string id_of(const Json& json) {
-  if (!json.is_object()) return "null";
+/// The id of a line, which may be broken elsewhere; empty when it has none. What a double cannot hold is taken from the line.
+std::string id_of(const Json& json, const std::string& line) {
+  if (!json.is_object()) return {};
   const auto id = json.find("id");
-  return id == json.end() || id->is_structured() ? "null" : id->dump();
+  if (id == json.end()) return {};
+  return id->is_number_float() || id->is_structured() ? member_text(line, "id") : id->dump();
 }
 
 class Queries {
@@ -96,17 +97,17 @@ class Queries {
       json = parse_json(line, number);
       const SceneFile scene = scene_from_json(json, directory_);
       const Result result = solve(scene.scene, flags.resolve(scene, ""));
-      append_result(answers.text, result, scene.scene.query, scene.id);
+      append_result(answers.text, result, scene.scene.query, id_of(json, line));
       answers.text += '\n';
       if (scene.expect && !missed_expectations(scene, result).empty()) ++answers.missed;
     } catch (const Error& e) {
       ++answers.errors;
-      append_error(answers.text, id_of(json), number, e);
+      append_error(answers.text, id_of(json, line), number, e);
     }
   }
 
   static void append_error(std::string& out, const std::string& id, std::size_t line, const Error& e) {
-    out += "{\"id\":" + id + ",\"line\":" + std::to_string(line) + ",\"error\":{\"code\":";
+    out += "{\"id\":" + (id.empty() ? "null" : id) + ",\"line\":" + std::to_string(line) + ",\"error\":{\"code\":";
     append_string(out, e.code());
     out += ",\"message\":";
     append_string(out, e.message());
