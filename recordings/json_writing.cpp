@@ -199,15 +199,15 @@ void append_settings(std::string& out, const Settings& s) {
   name("closest_point", closest_point_names[static_cast<std::size_t>(s.closest_point)], false);
   name("penetration", penetration_names[static_cast<std::size_t>(s.penetration)], false);
   name("scalar", scalar_names[static_cast<std::size_t>(s.scalar)], false);
-  if (s.stopping != Stopping::bounds) name("stopping", stopping_names[static_cast<std::size_t>(s.stopping)], false);
-  if (s.acceleration != Acceleration::nesterov) name("acceleration", acceleration_names[static_cast<std::size_t>(s.acceleration)], false);
+  name("stopping", stopping_names[static_cast<std::size_t>(s.stopping)], false);
+  name("acceleration", acceleration_names[static_cast<std::size_t>(s.acceleration)], false);
   append_key(out, "tolerance");
   append_number(out, s.tolerance);
   append_key(out, "max_iterations");
   append_integer(out, s.max_iterations);
   append_key(out, "initial_direction");
   append_vector(out, s.initial_direction.value_or(AnyVector()));
-  if (s.start == Start::previous) name("start", start_names[static_cast<std::size_t>(s.start)], false);
+  name("start", start_names[static_cast<std::size_t>(s.start)], false);
   if (!s.initial_simplex.empty()) append_key(out, "initial_simplex");
   for (std::size_t i = 0; i < s.initial_simplex.size(); ++i) {
     out += i == 0 ? "[{" : ",{";
