@@ -2,36 +2,71 @@
 
 #include <tiny_obj_loader.h>
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <fstream>
 #include <sstream>
+#include <string_view>
 
 #include "shapes/error.h"
+#include "shapes/input_file.h"
+#include "shapes/shape.h"
 
 namespace gjkdbg {
 namespace {
 
-/// tinyobjloader reads single precision and skips what it cannot read; vertices are therefore taken from their lines,
-/// in double, and anything malformed is named.
-std::vector<AnyVector> read_vertices(std::istream& in, const std::string& name) {
-  std::vector<AnyVector> points;
-  std::string line;
-  for (int number = 1; std::getline(in, line); ++number) {
-    std::istringstream words(line);
-    std::string keyword;
-    if (!(words >> keyword) || keyword != "v") continue;
-    AnyVector p(3);
-    const std::string place = name + ": line " + std::to_string(number);
-    for (int i = 0; i < 3; ++i) {
-      std::string word;
-      words >> word;
-      char* end = nullptr;
-      p[i] = std::strtod(word.c_str(), &end);
-      if (word.empty() || *end != '\0') throw Error("bad-mesh", "a vertex needs three numbers", place);
-      if (!std::isfinite(p[i])) throw Error("non-finite", "a vertex must be finite", place);
-    }
-    points.push_back(p);
+/// What OBJ files may hold; of it, vertices and faces matter here.
+constexpr std::string_view statements[] = {"v", "vt", "vn", "vp", "p", "l", "f", "g", "s", "o", "mg", "usemtl", "mtllib", "usemap", "maplib", "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm",
+                                           "trim", "hole", "scrv", "sp", "end", "con", "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj", "ctech", "stech", "call", "csh"};
+
+AnyVector read_vertex(std::istream& words, const std::string& place) {
+  AnyVector p(3);
+  for (int i = 0; i < 3; ++i) {
+    std::string word;
+    words >> word;
+    char* end = nullptr;
+    p[i] = std::strtod(word.c_str(), &end);
+    if (word.empty() || *end != '\0') throw Error("bad-mesh", "a vertex needs three numbers", place);
+    if (!std::isfinite(p[i])) throw Error("non-finite", "a vertex must be finite", place);
+    if (std::abs(p[i]) > largest_length) throw Error("too-large", "a vertex must not exceed 1e60 in magnitude", place);
   }
+  return p;
+}
+
+/// A corner is a vertex, perhaps with texture and normal: 1, 1/2, 1//3, 1/2/3. Vertices count from 1, or from the latest, -1, backwards.
+void check_face(std::istream& words, std::size_t so_far, std::size_t in_all, const std::string& place) {
+  int corners = 0;
+  for (std::string word; words >> word; ++corners) {
+    int vertex = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), vertex);
+    const std::string_view rest(end, word.data() + word.size());
+    if (error != std::errc() || (!rest.empty() && rest[0] != '/') || rest.find_first_not_of("/-0123456789") != rest.npos)
+      throw Error("bad-mesh", "\"" + word + "\" is no corner of a face", place);
+    if (vertex == 0 || (vertex > 0 && static_cast<std::size_t>(vertex) > in_all) || (vertex < 0 && static_cast<std::size_t>(-static_cast<long>(vertex)) > so_far))
+      throw Error("wrong-index", "a face names the vertex " + std::to_string(vertex) + ", which is not there", place);
+  }
+  if (corners < 3) throw Error("bad-mesh", "a face needs three vertices", place);
+}
+
+/// tinyobjloader reads single precision and skips what it cannot read; vertices are therefore taken from their lines,
+/// in double, and anything malformed is named, with its line.
+std::vector<AnyVector> read_vertices(const std::string& text, const std::string& name) {
+  std::vector<AnyVector> points;
+  const auto for_lines = [&](auto&& line_of) {
+    std::istringstream in(text);
+    std::string line, keyword;
+    for (int number = 1; std::getline(in, line); ++number)
+      if (std::istringstream words(line); words >> keyword && keyword[0] != '#') line_of(keyword, words, name + ": line " + std::to_string(number));
+  };
+  for_lines([&](const std::string& keyword, std::istream& words, const std::string& place) {
+    if (keyword == "v") points.push_back(read_vertex(words, place));
+    else if (std::find(std::begin(statements), std::end(statements), keyword) == std::end(statements)) throw Error("bad-mesh", "\"" + keyword.substr(0, 40) + "\" is no statement of OBJ", place);
+  });
+  std::size_t so_far = 0;
+  for_lines([&](const std::string& keyword, std::istream& words, const std::string& place) {
+    if (keyword == "v") ++so_far;
+    if (keyword == "f") check_face(words, so_far, points.size(), place);
+  });
   return points;
 }
 
@@ -39,13 +74,11 @@ std::vector<AnyVector> read_vertices(std::istream& in, const std::string& name) 
 
 ObjMesh read_obj(const std::filesystem::path& file) {
   const std::string name = file.string();
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) throw Error("missing-file", "cannot be read", name);
   std::ostringstream whole;
-  whole << in.rdbuf();
-  std::istringstream lines(whole.str()), text(whole.str());
+  whole << open_input(file).rdbuf();
+  std::istringstream text(whole.str());
   ObjMesh mesh;
-  mesh.points = read_vertices(lines, name);
+  mesh.points = read_vertices(whole.str(), name);
   if (mesh.points.empty()) throw Error("no-points", "holds no vertices", name);
 
   tinyobj::attrib_t attributes;

@@ -14,8 +14,8 @@ struct ObjMesh {
   std::vector<std::array<int, 3>> triangles;   ///< polygons are split; empty for a file of vertices only
 };
 
-/// Throws Error (place: the file's name, with the line where it is known) for a file that cannot be read, a malformed or
-/// non-finite vertex, no vertices at all, or a face that names a vertex that is not there.
+/// Throws Error (place: the file's name, with the line where it is known) for a file that cannot be read, a malformed,
+/// huge or non-finite vertex, no vertices at all, a face of fewer than three or that names a vertex that is not there, or a line that is no OBJ.
 ObjMesh read_obj(const std::filesystem::path& file);
 
 }  // namespace gjkdbg

@@ -1,12 +1,17 @@
 // Support mappings, poses, hulls.
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 
 #include "shapes/convex.h"
 #include "shapes/convex_hull.h"
 #include "shapes/error.h"
+#include "shapes/obj_file.h"
 #include "shapes/pose.h"
 #include "tests/support/random_scenes.h"
 
@@ -203,6 +208,42 @@ TEST(Pose, RefusesWhatIsNoRotation) {
   mirror(2, 2) = -1;
   EXPECT_EQ(code(RotationMatrix{mirror}), "not-a-rotation");
   EXPECT_EQ(code(AxisAngle{any(V3(0, 0, 0)), 1}), "not-a-rotation");
+}
+
+/// What is read of an OBJ file, or where and why it is refused.
+std::string obj(const std::string& text) {
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / ("gjkdbg-shapes-test-" + std::to_string(getpid()) + ".obj");
+  std::ofstream(file, std::ios::binary) << text;
+  std::string out;
+  try {
+    const ObjMesh mesh = read_obj(file);
+    out = std::to_string(mesh.points.size()) + " points, " + std::to_string(mesh.triangles.size()) + " triangles";
+  } catch (const Error& e) {
+    const std::size_t line = e.where().find(": line ");
+    out = (line == std::string::npos ? "whole file" : e.where().substr(line + 2)) + " " + e.code();
+  }
+  std::filesystem::remove(file);
+  return out;
+}
+
+TEST(Obj, IsReadOrRefusedWithItsLine) {
+  const std::string corners = "# four\r\nv 0 0 0\r\nv 1 0 0 1\nv 0 1 0 0.5 0.5 0.5\n\nv 0 0 1e60\n";
+  EXPECT_EQ(obj(corners), "4 points, 0 triangles");
+  EXPECT_EQ(obj(corners + "mtllib a.mtl\no tetra\ng a b\nusemtl c\ns off\nvt 0 0\nvn 0 0 1\nf 1 2 3\nf 1/1 2/1 3/1 4/1\nf 1//1 2//1 -1//1\nf -4/1/1 -3/1/1 -1/1/1\nl 1 2\n"), "4 points, 5 triangles");
+  EXPECT_EQ(obj("f 1 2 3\n" + corners), "4 points, 1 triangles");
+  EXPECT_EQ(obj(corners + "f 1.5 2 3\n"), "line 7 bad-mesh");
+  EXPECT_EQ(obj(corners + "f 1 2\n"), "line 7 bad-mesh");
+  EXPECT_EQ(obj(corners + "f 1 2 3 # no comment here\n"), "line 7 bad-mesh");
+  EXPECT_EQ(obj(corners + "f 1 2 x\n"), "line 7 bad-mesh");
+  EXPECT_EQ(obj(corners + "f 1 2 99999999999\n"), "line 7 bad-mesh");
+  EXPECT_EQ(obj(corners + "\nf 1 2 5\n"), "line 8 wrong-index");
+  EXPECT_EQ(obj(corners + "f 0 1 2\n"), "line 7 wrong-index");
+  EXPECT_EQ(obj(corners + "f 1 2 -5\n"), "line 7 wrong-index");
+  EXPECT_EQ(obj(corners + "v 0 0 1e61\n"), "line 7 too-large");
+  EXPECT_EQ(obj(corners + "v 0 0 1e999\n"), "line 7 non-finite");
+  EXPECT_EQ(obj(corners + "v 0 0\n"), "line 7 bad-mesh");
+  EXPECT_EQ(obj(corners + "this is no mesh\n"), "line 7 bad-mesh");
+  EXPECT_EQ(obj(""), "whole file no-points");
 }
 
 }  // namespace
