@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "recordings/check_context.h"
 #include "recordings/region_tests.h"
@@ -34,7 +35,7 @@ std::string text_of(const AnyVector& v) {
   return out + ")";
 }
 
-CheckContext::CheckContext(const Recording& r) : recording(r), dimension(r.scene.scene.dimension) {
+CheckContext::CheckContext(const Recording& r) : recording(r), dimension(r.scene.scene.dimension), inferred(r.generator.starts_with("a solver under ")) {
   const auto& bodies = r.scene.scene.bodies;
   for (const Event& event : r.events)
     if (const auto q = given_vertex(event)) size = std::max(size, q->w.norm());
@@ -83,6 +84,18 @@ double CheckContext::height(const AnyVector& direction) const {
 double CheckContext::body_height(const AnyVector& direction) const {
   const AnyVector d = direction.stableNormalized();
   return d.dot((*a_)(d, true) - (*b_)(-d, true));
+}
+
+double CheckContext::short_of_support(std::size_t body, const AnyVector& direction, const AnyVector& point) const {
+  const WorldSupport& support = body == 0 ? *a_ : *b_;
+  double least = std::numeric_limits<double>::infinity();
+  for (const bool whole : {false, true}) {
+    const AnyVector right = support(direction, whole);
+    if ((right - point).norm() <= tolerance) return 0;
+    least = std::min(least, std::abs(direction.dot(right - point)));
+  }
+  // Another point of the same height will do where there are several, so long as it is one of the body's.
+  return std::max(least, outside(recording.scene.scene, body, point));
 }
 
 void CheckContext::find(const char* code, const std::string& message, Finding::Severity severity) {
@@ -170,9 +183,9 @@ struct Walk {
   void operator()(const recorded::State&) {}
   void operator()(const recorded::ContactFound&) {}
   void operator()(const recorded::ImpulseApplied&) {}
-  /// What `run` noted when a solver failed.
+  /// What `run` noted when a solver failed, or named what it had not been given.
   void operator()(const recorded::Warning& e) {
-    for (const char* code : {"timeout", "crash", "bad-message", "support-limit", "no-result"})
+    for (const char* code : {"timeout", "crash", "bad-message", "support-limit", "no-result", "unknown-vertex"})
       if (e.code == code) c.find(code, e.message);
   }
 };
@@ -181,11 +194,15 @@ struct Walk {
 
 std::vector<Finding> check(const Recording& recording) {
   CheckContext context(recording);
+  TraceCheck trace(context);
   Walk walk(context);
   for (std::size_t i = 0; i < recording.events.size(); ++i) {
     context.step = i;
+    trace.order(recording.events[i]);
     std::visit(walk, recording.events[i]);
+    trace.values(recording.events[i]);
   }
+  trace.finish();
   const Query query = recording.scene.scene.query;
   if (query == Query::cast || query == Query::simulate) {
     check_motion(context);

@@ -1,6 +1,7 @@
 // What the parts of `check` share: the scene's supports, tolerances, the vertices so far, and the findings.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -34,11 +35,15 @@ class CheckContext {
   bool has_supports = false;          ///< false for meshes: then only what the recording itself holds is judged
   bool cores = true;                  ///< whether the recorded vertices are those of the cores, or of the whole bodies
   double radius = 0;                  ///< between the recorded vertices' difference and the bodies
+  const bool inferred;                ///< whether the ends of phases were put down by `run`, from what the solver answered
 
   /// max d.w over the difference the vertices are from, divided by |d|.
   double height(const AnyVector& direction) const;
   /// The same over the bodies, radii included.
   double body_height(const AnyVector& direction) const;
+
+  /// How far a point is from being a support of a body along a unit direction, or of its core: short of it, or beside the body.
+  double short_of_support(std::size_t body, const AnyVector& direction, const AnyVector& point) const;
 
   /// Our own answer to the penetration query, in double precision; computed when first asked for.
   const Result& reference();
@@ -59,6 +64,48 @@ class CheckContext {
   std::set<std::string> seen_;
 };
 
+/// How far a point lies outside a body, surely.
+double outside(const Scene& scene, std::size_t body, const AnyVector& point);
+
+/// What holds for every event: phases end once, numbers are given out once, supports are supports, bounds hold the answer.
+class TraceCheck {
+ public:
+  explicit TraceCheck(CheckContext& context) : c_(context) {}
+  /// Before the algorithm's own checks: whether the event may stand here.
+  void order(const Event& event);
+  /// After them: whether what it says is so.
+  void values(const Event& event);
+  void finish();
+
+ private:
+  void phases(const Event& event);
+  void incomplete(const std::string& message);
+  void given(int number, bool is_new, const char* what);
+  bool belong_together(const AnyVector& a, const AnyVector& b, const AnyVector& w);
+  double far_out(const AnyVector& a, const AnyVector& b) const;
+  void bounds(double lower, double upper);
+  void along(const AnyVector& normal, double distance);
+  void judge(const recorded::VertexKept& e);
+  void judge(const recorded::SupportQueried& e);
+  void judge(const recorded::SimplexReduced& e);
+  void judge(const recorded::GjkEnded& e);
+  void judge(const recorded::PolytopeGrown& e);
+  void judge(const recorded::EpaEnded& e);
+  void judge(const recorded::PortalFound& e);
+  void judge(const recorded::MprEnded& e);
+  void judge(const recorded::AxisTested& e);
+  void judge(const recorded::SatEnded& e);
+  void judge(const recorded::ClosedFormEnded& e);
+  template <class E>
+  void judge(const E&) {}
+
+  CheckContext& c_;
+  std::string_view open_, last_ended_;  ///< phases
+  std::size_t begun_ = 0;
+  bool any_ = false, expandable_ = false, motion_open_ = false, moved_ = false;
+  std::set<int> faces_;
+};
+
 /// GJK's part of a run: directions, simplices, progress, and the claim it ends with.
 class GjkCheck {
  public:
@@ -75,6 +122,7 @@ class GjkCheck {
   void check_towards_origin(const AnyVector& d);
   void check_progress(const recorded::SupportQueried& e);
   void check_region(const recorded::SimplexReduced& e);
+  void check_closest(const recorded::SimplexReduced& e);
   void check_cycle(const std::vector<int>& region);
   void check_repetition(const AnyVector& direction);
   bool heuristic_region(const std::vector<int>& before, const AnyVector& v);
@@ -110,7 +158,9 @@ class EpaCheck {
   void add(const recorded::Face& f);
   bool supports(const recorded::Face& f, const std::vector<AnyVector>& w) const;
   void orient(const std::vector<recorded::Face>& added);
-  void check_normal(int number, const AnyVector& given);
+  bool check_normal(int number, const AnyVector& given);
+  void check_plane(int number, const AnyVector& normal, double distance);
+  void check_horizon(const recorded::PolytopeGrown& e);
   void check_closed();
   void check_convex(std::optional<int> newest);
   void check_origin();

@@ -53,9 +53,10 @@ void EpaCheck::add(const recorded::Face& f) {
     double longest = 0;
     for (const AnyVector& p : w) longest = std::max(longest, (p - w[0]).norm());
     const double area = face.normal.norm();
-    if (c_.dimension > 1 && area <= 1e-15 * (c_.dimension == 3 ? longest * longest : c_.size) && supports(f, w)) {
-      face.normal = f.normal, face.distance = f.distance;  // thin to rounding, with a right normal all the same
-    } else if (c_.dimension > 1 && area <= 1e-15 * (c_.dimension == 3 ? longest * longest : c_.size)) {
+    const double scale = c_.dimension == 3 ? longest * longest : c_.size;
+    if (c_.dimension > 1 && area <= 1e-9 * scale && supports(f, w)) {
+      face.normal = f.normal, face.distance = f.distance;  // thin, so that its corners do not tell its normal; the given one is right
+    } else if (c_.dimension > 1 && area <= 1e-15 * scale) {
       c_.find("zero-area-face", "The face of vertices " + std::to_string(f.vertices[0]) + ", " + std::to_string(f.vertices[1]) + ", … has no area, so it has no normal. The usual cause is a new vertex in line with an edge of the horizon, or one "
                                 "that the polytope already had: stop, or remove the face behind that edge too.");
       face.usable = false;
@@ -74,15 +75,60 @@ void EpaCheck::orient(const std::vector<recorded::Face>& added) {
     Face& face = faces_[f.face];
     if (!face.usable) continue;
     if (face.distance < face.normal.dot(inside)) face.normal = -face.normal, face.distance = -face.distance;
-    check_normal(f.face, f.normal);
+    if (check_normal(f.face, f.normal)) check_plane(f.face, f.normal, f.distance);
   }
 }
 
-void EpaCheck::check_normal(int number, const AnyVector& given) {
+/// False when it points inwards.
+bool EpaCheck::check_normal(int number, const AnyVector& given) {
   const AnyVector& right = faces_[number].normal;
-  if (right.dot(given) < -0.9 * given.norm())
+  const bool inwards = right.dot(given) < -0.9 * given.norm();
+  if (inwards)
     c_.find("flipped-face-normal", "The normal " + text_of(given) + " of " + face_name(number) + " points into the polytope; expected is " + text_of(right) +
                                        ". The usual cause is a winding that was not kept: turn the normal so that it looks away from a point inside.");
+  return !inwards;
+}
+
+/// The plane that is given for a face holds its vertices.
+void EpaCheck::check_plane(int number, const AnyVector& normal, double distance) {
+  if (!normal.allFinite() || normal.isZero(0) || !std::isfinite(distance)) return;
+  const AnyVector n = normal.stableNormalized();
+  for (const int v : faces_[number].vertices) {
+    const AnyVector* w = c_.vertex(v);
+    if (!w || std::abs(n.dot(*w) - distance) <= std::max(c_.tolerance, 1e-7 * c_.size)) continue;
+    c_.find("wrong-face", "The plane of " + face_name(number) + " is given by the normal " + text_of(normal) + " and the distance " + text_of(distance) + ", but its vertex " + std::to_string(v) + " lies at " + text_of(n.dot(*w)) +
+                              " along it. Expected are the normal " + text_of(faces_[number].normal) + " and the distance " + text_of(faces_[number].distance) + ".");
+    return;
+  }
+}
+
+/// The horizon is what the faces removed leave open: the edges (2D: the vertices) that one of them alone has.
+void EpaCheck::check_horizon(const recorded::PolytopeGrown& e) {
+  if (c_.dimension == 1 || (c_.dimension == 2 && e.horizon.empty())) return;
+  std::map<std::array<int, 2>, int> rim;
+  std::set<std::array<int, 2>> right, given;
+  for (const int number : e.removed) {
+    const auto found = faces_.find(number);
+    if (found == faces_.end()) {
+      c_.find("wrong-face", face_name(number) + " is removed, but the polytope has none of this number.");
+      return;
+    }
+    const std::vector<int>& v = found->second.vertices;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      const int next = c_.dimension == 3 ? v[(i + 1) % v.size()] : v[i];
+      ++rim[{std::min(v[i], next), std::max(v[i], next)}];
+    }
+  }
+  for (const auto& [edge, count] : rim)
+    if (count == 1) right.insert(edge);
+  for (const Edge& edge : e.horizon) {
+    if (c_.dimension == 3) given.insert({std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
+    else given.insert({{edge[0], edge[0]}, {edge[1], edge[1]}});
+  }
+  if (right == given) return;
+  std::string expected;
+  for (const auto& edge : right) expected += " " + std::to_string(edge[0]) + (c_.dimension == 3 ? "-" + std::to_string(edge[1]) : "");
+  c_.find("wrong-horizon", "The horizon is not the rim of the faces removed. Expected is" + expected + ". The usual cause is an edge that two of these faces share, left in, or one that they do not, left out.");
 }
 
 void EpaCheck::operator()(const recorded::PolytopeSeeded& e) {
@@ -97,6 +143,7 @@ void EpaCheck::operator()(const recorded::PolytopeSeeded& e) {
 
 void EpaCheck::operator()(const recorded::PolytopeGrown& e) {
   if (!c_.vertex(e.vertex)) return;
+  check_horizon(e);
   for (const int f : e.removed) faces_.erase(f);
   for (const auto& f : e.added) add(f);
   orient(e.added);
@@ -156,15 +203,18 @@ void EpaCheck::check_origin() {
 void EpaCheck::operator()(const recorded::FaceChosen& e) {
   chosen_ = e.face;
   const auto found = faces_.find(e.face);
+  if (found == faces_.end() && !faces_.empty())
+    c_.find("wrong-face", face_name(e.face) + " was chosen, but the polytope has none of this number: it was removed, or never there.");
   if (found == faces_.end() || !found->second.usable) return;
   const Face& face = found->second;
-  check_normal(e.face, e.normal);
+  const bool outwards = check_normal(e.face, e.normal);
   for (const auto& [number, other] : faces_) {
     if (!other.usable || other.distance >= face.distance - std::max(1e-7 * c_.size, c_.tolerance)) continue;
     c_.find("not-closest-face", face_name(e.face) + " was chosen, " + text_of(face.distance) + " from the origin, but " + face_name(number) + " is nearer, at " + text_of(other.distance) +
                                     ". EPA's bound holds for the nearest face only. The usual cause is comparing distances of normals that were not normalised, or a stale queue entry.");
-    return;
+    break;
   }
+  if (outwards) check_plane(e.face, e.normal, e.distance);
 }
 
 void EpaCheck::operator()(const recorded::EpaEnded& e) {

@@ -1,7 +1,7 @@
 // check, GJK's part.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <limits>
 
 #include "recordings/check_context.h"
 
@@ -35,7 +35,12 @@ std::vector<AnyVector> GjkCheck::points(const std::vector<int>& numbers) {
   return out;
 }
 
-void GjkCheck::operator()(const recorded::GjkBegan& e) { c_.check_direction(e.direction); }
+/// A solver that asks for no support has no first direction, and none is wrong.
+void GjkCheck::operator()(const recorded::GjkBegan& e) {
+  const auto& events = c_.recording.events;
+  const bool asks = c_.step + 1 < events.size() && std::holds_alternative<recorded::SupportQueried>(events[c_.step + 1]);
+  if (asks || !c_.inferred) c_.check_direction(e.direction);
+}
 
 /// The next direction must lead from the simplex towards the origin, and across the feature that was kept.
 void GjkCheck::check_towards_origin(const AnyVector& d) {
@@ -58,17 +63,21 @@ void GjkCheck::check_towards_origin(const AnyVector& d) {
     const AnyVector edge = w[i] - w[0];
     if (edge.norm() > c_.tolerance) worst = std::max(worst, std::abs(d.dot(edge)) / (d.norm() * edge.norm()));
   }
-  if (worst > 1e-4)
+  // The nearest point is no more exact than its vertices are.
+  const bool single = c_.recording.settings.scalar == Scalar::float_precision;
+  const double rounding = single ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon();
+  if (worst > std::max(single ? 1e-2 : 1e-4, 64 * rounding * c_.size / v.norm()))
     c_.find("direction-not-perpendicular", "The direction " + text_of(d) + " is not perpendicular to the feature that was kept (cosine with an edge " + text_of(worst) + "), though it leads towards the origin. Expected is " +
                                                text_of(AnyVector(-v)) + " or a multiple. This costs iterations, not the answer.",
             Finding::Severity::warning);
 }
 
-/// A query that leaves the simplex as it was is the end, unless the nearest point was put more exactly and the direction has turned.
+/// A query that leaves the simplex as it was is the end, unless the nearest point was put more exactly and the direction has turned. Jolt's rule
+/// compares |v|^2 with that of the step before: it asks on until that no longer falls at all.
 void GjkCheck::check_progress(const recorded::SupportQueried& e) {
   const bool same_direction = last_direction_.size() > 0 && (e.direction - last_direction_).norm() <= 1e-12 * e.direction.norm();
   last_direction_ = e.direction;
-  if (!repeated_at_ || !pending_.empty() || !same_direction) return;
+  if (!repeated_at_ || !pending_.empty() || !same_direction || c_.recording.settings.stopping == Stopping::jolt) return;
   if (stuck_++ == 0)
     c_.find("no-progress", "The support before left the simplex " + list_of(simplex_) + " of step " + std::to_string(*repeated_from_) + " as it was: nothing nearer the origin exists. The search goes on all the same, in the same direction. "
                            "Stop when |v|^2 - v . w is small beside |v|^2.");
@@ -130,8 +139,10 @@ bool GjkCheck::heuristic_region(const std::vector<int>& before, const AnyVector&
 }
 
 void GjkCheck::check_region(const recorded::SimplexReduced& e) {
-  // What there was to keep: the last simplex, what was asked for since, and what the event itself says.
-  std::vector<int> before = pending_;
+  // What there was to keep: the last simplex, what was asked for since, and what the event itself says. While momentum lasts, a support that
+  // brings nothing along v ends it and is not kept.
+  const bool momentum = c_.recording.settings.name == MethodName::gjk_accelerated && !e.before.empty();
+  std::vector<int> before = momentum ? std::vector<int>() : pending_;
   for (const std::vector<int>* list : {&std::as_const(simplex_), &e.before})
     for (const int n : *list)
       if (!contains(before, n)) before.push_back(n);
@@ -144,6 +155,28 @@ void GjkCheck::check_region(const recorded::SimplexReduced& e) {
   for (const int i : best.subset) right.push_back(before[static_cast<std::size_t>(i)]);
   c_.find("wrong-region", "Of " + list_of(before) + " the part " + list_of(e.region) + " was kept, whose nearest point is " + text_of(v.norm()) + " from the origin. The part " + list_of(right) + " comes as near as " +
                               text_of(best.v.norm()) + ". The usual cause is a region test with a flipped sign, or one made before the vertices were reordered.");
+}
+
+/// The weights make the nearest point of the vertices, and it is the nearest.
+void GjkCheck::check_closest(const recorded::SimplexReduced& e) {
+  const std::vector<AnyVector> w = points(e.region);
+  if (w.size() != e.region.size() || e.closest.size() == 0 || e.closest.hasNaN()) return;
+  const double limit = std::max(c_.tolerance, 1e-7 * c_.size);
+  const double nearest = nearest_point(w).v.norm();
+  // Johnson's and the Voronoi tests end without weights when the simplex holds the origin.
+  const bool enclosed = e.closest.isZero(0) && static_cast<int>(w.size()) == c_.dimension + 1 && c_.recording.settings.closest_point != ClosestPoint::signed_volumes;
+  if (!e.barycentric.empty() && !enclosed) {
+    AnyVector sum = AnyVector::Zero(c_.dimension);
+    double total = 0, least = 0;
+    for (std::size_t i = 0; i < std::min(w.size(), e.barycentric.size()); ++i) sum += e.barycentric[i] * w[i], total += e.barycentric[i], least = std::min(least, e.barycentric[i]);
+    if (e.barycentric.size() != w.size() || std::abs(total - 1) > 1e-4 || least < -1e-4 || (sum - e.closest).norm() > limit) {
+      c_.find("wrong-closest", "The weights, which sum to " + text_of(total) + ", make " + text_of(sum) + " of the vertices " + list_of(e.region) + ", but the nearest point is given as " + text_of(e.closest) +
+                                   ". Weights are as many as vertices, in their order, none negative, and sum to 1.");
+      return;
+    }
+  }
+  if (std::abs(e.closest.norm() - nearest) > limit)
+    c_.find("wrong-closest", "The nearest point of " + list_of(e.region) + " is given as " + text_of(e.closest) + ", " + text_of(e.closest.norm()) + " from the origin; it is " + text_of(nearest_point(w).v) + ", at " + text_of(nearest) + ".");
 }
 
 /// Remembers simplices by where their vertices are.
@@ -178,7 +211,7 @@ void GjkCheck::operator()(const recorded::SimplexReduced& e) {
     c_.find("simplex-too-large", "The simplex " + list_of(e.region) + " has " + std::to_string(e.region.size()) + " vertices; in " + std::to_string(c_.dimension) + "D it has at most " + std::to_string(c_.dimension + 1) +
                                      ". The usual cause is a new vertex that is added before the old simplex was reduced.");
   else if (!twice)
-    check_region(e);
+    check_region(e), check_closest(e);
   check_cycle(e.region);
   reported_ = true;
   simplex_ = e.region;

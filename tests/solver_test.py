@@ -208,6 +208,18 @@ class Solver(unittest.TestCase):
                 with self.subTest(name):
                     self.expect(self.run_kit(scene, f"/usr/bin/python3 {path} 2>/dev/null", "--timeout", "1.5"), code, name)
 
+    def test_what_is_said_without_a_support(self):
+        """A right answer at once has no findings; vertices nobody gave out are named."""
+        result = '{"type":"result","intersecting":true}'
+        simplex, support, box = '{"type":"simplex","vertices":[7]}', '{"type":"support","direction":[1,0,0]}', "box-box-deep"
+        for lines, code in [((result,), None), ((simplex, result), "unknown-vertex"),
+                            ((support, '{"type":"face","vertices":[0,1,2],"normal":[1,0,0],"distance":1}', result), "unknown-vertex"),
+                            ((support, '{"type":"face","vertices":[0],"normal":[1,0,0],"distance":1}', result), "bad-message"),
+                            ((support, '{"type":"polytope","faces":[[0,0]]}', result), "bad-message")]:
+            findings = self.run_kit(box, "cat >/dev/null & printf '%s\\n' " + " ".join(f"'{line}'" for line in lines))
+            with self.subTest(lines):
+                self.assertEqual([f["code"] for f in findings][:1], [code] if code else [])
+
     def test_edited_recordings_are_named(self):
         for scene, edit, code in EDITS:
             recording = json.loads(subprocess.run([PROGRAM, "dump", scene], capture_output=True, text=True).stdout)

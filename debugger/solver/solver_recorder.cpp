@@ -104,6 +104,13 @@ std::vector<int> SolverRecorder::vertex_list(const Json& json, const Place& plac
   return list;
 }
 
+/// The vertices of a face: as many as the dimension.
+std::vector<int> SolverRecorder::face_vertices(const Json& json, const Place& place) const {
+  const std::vector<int> vertices = vertex_list(json, place);
+  if (static_cast<int>(vertices.size()) != dimension_) reject(place, "bad-message", "must be " + std::to_string(dimension_) + " vertex numbers");
+  return vertices;
+}
+
 void SolverRecorder::simplex(const Json& json) {
   const Place root, at(root, "vertices");
   if (!json.contains("vertices")) reject(at, "bad-message", "is missing");
@@ -166,7 +173,7 @@ void SolverRecorder::polytope(const Json& json) {
   std::set<std::set<int>> wanted;
   std::vector<recorded::Face> added;
   for (std::size_t i = 0; i < json["faces"].size(); ++i) {
-    const std::vector<int> vertices = vertex_list(json["faces"][i], Place(at, i));
+    const std::vector<int> vertices = face_vertices(json["faces"][i], Place(at, i));
     const std::set<int> key(vertices.begin(), vertices.end());
     if (!wanted.insert(key).second && epa_) continue;
     if (!faces_.contains(key)) added.push_back(make_face(vertices));
@@ -213,8 +220,14 @@ void SolverRecorder::grow(const std::set<std::set<int>>& wanted, std::vector<rec
 void SolverRecorder::face(const Json& json) {
   const Place root, at(root, "vertices");
   if (!json.contains("vertices")) reject(at, "bad-message", "is missing");
-  const std::vector<int> vertices = vertex_list(json["vertices"], at);
+  const std::vector<int> vertices = face_vertices(json["vertices"], at);
   end_gjk(GjkStatus::enclosed);
+  // Of a polytope's faces the recording holds the numbers, and `check` sees them; of this one it would not.
+  for (const int v : vertices)
+    if (!vertices_.contains(v)) {
+      recording_.events.push_back(recorded::Warning{"unknown-vertex", "The face chosen names vertex " + std::to_string(v) + ", which was never handed out by a support query; " + std::to_string(supports_) + " were so far."});
+      break;
+    }
   const auto found = faces_.find(std::set<int>(vertices.begin(), vertices.end()));
   recorded::Face face = found != faces_.end() ? found->second : make_face(vertices);
   recorded::FaceChosen e{epa_iteration_, face.face, face.normal, face.distance};
@@ -253,7 +266,7 @@ void SolverRecorder::result(const Json& json) {
 
 void SolverRecorder::abort(const std::string& code, const std::string& message) {
   if (began_ && !gjk_ended_) end_gjk(GjkStatus::aborted);
-  else if (epa_) recording_.events.push_back(recorded::EpaEnded{epa_iteration_, EpaStatus::aborted, -1, AnyVector::Zero(dimension_), 0});
+  else if (epa_ || chosen_) recording_.events.push_back(recorded::EpaEnded{epa_iteration_, EpaStatus::aborted, -1, AnyVector::Zero(dimension_), 0});
   recording_.events.push_back(recorded::Warning{code, message});
   recording_.result = {};
   recording_.result.status = "aborted";

@@ -35,6 +35,7 @@ class SolverRecorder {
   void begin(const AnyVector& direction);
   void end_gjk(GjkStatus status);
   std::vector<int> vertex_list(const Json& json, const Place& place) const;
+  std::vector<int> face_vertices(const Json& json, const Place& place) const;
   recorded::Face make_face(const std::vector<int>& vertices);
   void orient(std::vector<recorded::Face>& faces) const;
   void grow(const std::set<std::set<int>>& wanted, std::vector<recorded::Face> added);

@@ -89,5 +89,146 @@ TEST(Check, OurOwnRecordingsOfRandomScenesAreClean) {
   }
 }
 
+/// A recording of a scene of the gallery.
+Recording recorded_scene(const std::string& name) { return record(read_scene(read_gallery(GJKDBG_GALLERY).file(name))); }
+
+/// Where the nth event of a kind stands.
+template <class E>
+std::size_t step_of(const Recording& recording, std::size_t nth = 0) {
+  for (std::size_t i = 0; i < recording.events.size(); ++i)
+    if (std::holds_alternative<E>(recording.events[i]) && nth-- == 0) return i;
+  ADD_FAILURE() << "no such event";
+  return 0;
+}
+template <class E>
+E& event(Recording& recording, std::size_t nth = 0) {
+  return std::get<E>(recording.events[step_of<E>(recording, nth)]);
+}
+
+/// The first finding, as "step code".
+std::string first(const Recording& recording) {
+  const std::vector<Finding> findings = check(recording);
+  return findings.empty() ? "none" : std::to_string(findings[0].step) + " " + findings[0].code;
+}
+std::string named(std::size_t step, const std::string& code) { return std::to_string(step) + " " + code; }
+
+TEST(Check, NamesAPhaseThatDoesNotEndOnce) {
+  const Recording right = recorded_scene("box-box-deep");
+  const std::size_t gjk = step_of<recorded::GjkEnded>(right), epa = step_of<recorded::EpaEnded>(right);
+  Recording r = right;
+  r.events.clear();
+  EXPECT_EQ(first(r), named(0, "incomplete-trace"));
+  for (const std::size_t end : {gjk, epa}) {
+    const auto at = static_cast<std::ptrdiff_t>(end);
+    r = right, r.events.insert(r.events.begin() + at, right.events[end]);
+    EXPECT_EQ(first(r), named(end + 1, "incomplete-trace"));
+    r = right, r.events.erase(r.events.begin() + at);
+    EXPECT_EQ(first(r), named(end == epa ? epa - 1 : end, "incomplete-trace"));
+  }
+}
+
+TEST(Check, NamesANumberThatIsGivenOutAgain) {
+  Recording r = recorded_scene("box-box-deep");
+  event<recorded::SupportQueried>(r, 2).vertex = event<recorded::SupportQueried>(r, 1).vertex;
+  EXPECT_EQ(first(r), named(step_of<recorded::SupportQueried>(r, 2), "number-reused"));
+  r = recorded_scene("box-box-deep");
+  event<recorded::PolytopeGrown>(r).added[0].face = event<recorded::PolytopeSeeded>(r).faces[0].face;
+  EXPECT_EQ(first(r), named(step_of<recorded::PolytopeGrown>(r), "number-reused"));
+}
+
+TEST(Check, NamesTheStepOfAWrongSupport) {
+  for (const char* scene : {"box-box-deep", "box-box-apart", "ellipsoid-sphere-deep", "2d-corner-to-edge"}) {
+    const Recording right = recorded_scene(scene);
+    const std::size_t step = step_of<recorded::SupportQueried>(right);
+    Recording r = right;
+    auto* query = &event<recorded::SupportQueried>(r);
+    query->w = -query->w;
+    EXPECT_EQ(first(r), named(step, "wrong-support")) << scene;
+    r = right, query = &event<recorded::SupportQueried>(r);
+    query->a += AnyVector::Ones(query->a.size());
+    EXPECT_EQ(first(r), named(step, "wrong-support")) << scene;
+    // Both moved alike: the difference is right, the points are not the bodies'.
+    r = right, query = &event<recorded::SupportQueried>(r);
+    const AnyVector off = 3 * AnyVector::Ones(query->a.size());
+    query->a += off, query->b += off;
+    EXPECT_EQ(first(r), named(step, "wrong-support")) << scene;
+  }
+}
+
+TEST(Check, NamesWhatGjkSaysWrongly) {
+  const Recording right = recorded_scene("box-box-deep");
+  Recording r = right;
+  event<recorded::GjkEnded>(r).status = GjkStatus::separated;
+  EXPECT_EQ(first(r), named(step_of<recorded::GjkEnded>(r), "unjustified-separation"));
+  const std::size_t step = step_of<recorded::SimplexReduced>(right, 1);
+  r = right;
+  event<recorded::SimplexReduced>(r, 1).closest *= 1.1;
+  EXPECT_EQ(first(r), named(step, "wrong-closest"));
+  r = right;
+  auto& weights = event<recorded::SimplexReduced>(r, 1).barycentric;
+  weights[0] += 0.1, weights[1] -= 0.1;
+  EXPECT_EQ(first(r), named(step, "wrong-closest"));
+  r = right;
+  event<recorded::SimplexReduced>(r, 1).lower_bound = 0.5;
+  EXPECT_EQ(first(r), named(step, "wrong-bounds"));
+}
+
+TEST(Check, NamesWhatEpaSaysWrongly) {
+  const Recording right = recorded_scene("box-box-deep");
+  const auto expect = [&](const auto& edit, std::size_t step, const char* code) {
+    Recording r = right;
+    edit(r);
+    EXPECT_EQ(first(r), named(step, code));
+  };
+  const std::size_t seeded = step_of<recorded::PolytopeSeeded>(right), chosen = step_of<recorded::FaceChosen>(right);
+  const std::size_t grown = step_of<recorded::PolytopeGrown>(right), ended = step_of<recorded::EpaEnded>(right);
+  expect([](Recording& r) { event<recorded::PolytopeSeeded>(r).faces[1].distance += 0.1; }, seeded, "wrong-face");
+  expect([](Recording& r) { event<recorded::FaceChosen>(r).distance *= 2; }, chosen, "wrong-face");
+  expect([](Recording& r) { event<recorded::FaceChosen>(r).normal = Eigen::Vector3d(0.6, 0, 0.8); }, chosen, "wrong-face");
+  expect([](Recording& r) { event<recorded::FaceChosen>(r).face = 999; }, chosen, "wrong-face");
+  expect([](Recording& r) { event<recorded::PolytopeGrown>(r).horizon.pop_back(); }, grown, "wrong-horizon");
+  expect([](Recording& r) { event<recorded::PolytopeGrown>(r).horizon[0][0] = 99; }, grown, "wrong-horizon");
+  expect([](Recording& r) { event<recorded::EpaEnded>(r).normal *= -1; }, ended, "flipped-normal");
+  expect([](Recording& r) { event<recorded::EpaEnded>(r).depth += 0.01; }, ended, "wrong-depth");
+}
+
+TEST(Check, NamesBoundsThatLeaveTheAnswerOut) {
+  for (const char* scene : {"box-box-deep", "box-box-apart"}) {
+    Recording r = recorded_scene(scene);
+    *r.result.lower_bound = *r.result.signed_distance + 1e-3;
+    EXPECT_EQ(first(r), named(r.events.size() - 1, "wrong-bounds"));
+    r = recorded_scene(scene);
+    *r.result.upper_bound = *r.result.signed_distance - 1e-3;
+    EXPECT_EQ(first(r), named(r.events.size() - 1, "wrong-bounds"));
+  }
+}
+
+TEST(Check, NamesANormalOfMprThatIsTurnedRound) {
+  SceneFile file = read_scene(read_gallery(GJKDBG_GALLERY).file("box-box-deep"));
+  change_name(file.method, MethodName::mpr);
+  const Recording right = record(file);
+  EXPECT_EQ(first(right), "none");
+  Recording r = right;
+  *r.result.normal *= -1;
+  EXPECT_EQ(first(r), named(r.events.size() - 1, "flipped-normal"));
+  r = right;
+  event<recorded::MprEnded>(r).normal *= -1;
+  EXPECT_EQ(first(r), named(step_of<recorded::MprEnded>(r), "flipped-normal"));
+}
+
+/// A support that only ended the momentum was never part of the simplex; Jolt's rule asks once more.
+TEST(Check, KnowsWhatMomentumAndJoltsRuleAskFor) {
+  RandomScenes random(5);
+  for (int k = 0; k < 6000; ++k) {
+    SceneFile file;
+    file.scene = random.scene(2 + k % 2, static_cast<Family>(k / 3 % family_count), k % 2 == 0);
+    if (k % 2 == 0) change_name(file.method, MethodName::gjk_accelerated);
+    else file.method.stopping = Stopping::jolt;
+    file.scene.query = Query::distance;
+    EXPECT_EQ(text(check(record(file))), "") << "scene " << k;
+    if (testing::Test::HasFailure()) break;
+  }
+}
+
 }  // namespace
 }  // namespace gjkdbg

@@ -1,0 +1,172 @@
+// check, what every event has to keep to, whatever the algorithm.
+#include <algorithm>
+#include <cmath>
+
+#include "recordings/check_context.h"
+
+namespace gjkdbg {
+namespace {
+
+constexpr std::string_view gjk = "gjk", epa = "epa", mpr = "mpr", sat = "sat", closed_form = "closed_form", moving = "cast";
+
+/// The phase an event takes place in; empty for those that stand for themselves.
+struct PhaseOf {
+  std::string_view operator()(const recorded::SupportQueried& e) const {
+    constexpr std::array names{gjk, epa, epa, mpr, sat, moving};
+    return names[static_cast<std::size_t>(e.phase)];
+  }
+  std::string_view operator()(const recorded::VertexKept&) const { return gjk; }
+  std::string_view operator()(const recorded::SimplexReduced&) const { return gjk; }
+  std::string_view operator()(const recorded::PolytopeSeeded&) const { return epa; }
+  std::string_view operator()(const recorded::FaceChosen&) const { return epa; }
+  std::string_view operator()(const recorded::PolytopeGrown&) const { return epa; }
+  std::string_view operator()(const recorded::PortalFound&) const { return mpr; }
+  std::string_view operator()(const recorded::AxisTested&) const { return sat; }
+  std::string_view operator()(const recorded::LinesSolved&) const { return closed_form; }
+  std::string_view operator()(const recorded::CastAdvanced&) const { return moving; }
+  template <class E>
+  std::string_view operator()(const E&) const {
+    return {};
+  }
+};
+
+}  // namespace
+
+void TraceCheck::order(const Event& event) {
+  phases(event);
+  if (const auto vertex = given_vertex(event)) given(vertex->vertex, !c_.vertices.contains(vertex->vertex), "a vertex");
+  const auto* seeded = std::get_if<recorded::PolytopeSeeded>(&event);
+  const auto* grown = std::get_if<recorded::PolytopeGrown>(&event);
+  if (!seeded && !grown) return;
+  for (const auto& f : seeded ? seeded->faces : grown->added) given(f.face, faces_.insert(f.face).second, "a face");
+}
+
+void TraceCheck::values(const Event& event) {
+  std::visit([this](const auto& e) { judge(e); }, event);
+}
+
+/// A motion encloses the runs it is made of; these do not enclose one another. EPA has no beginning of its own: it
+/// follows a run of GJK, perhaps with MPR between.
+void TraceCheck::phases(const Event& event) {
+  const std::string_view kind = kind_name(event), inside = std::visit(PhaseOf{}, event);
+  const bool begins = kind.ends_with("_began"), ends = kind.ends_with("_ended");
+  const std::string_view phase = begins || ends ? kind.substr(0, kind.size() - 6) : inside;
+  if (phase.empty()) return;
+  any_ = true;
+  if (phase == moving) {
+    if (ends && moved_) incomplete("The cast ends a second time.");
+    moved_ = moved_ || ends;
+    motion_open_ = !ends;
+    return;
+  }
+  if (!open_.empty() && open_ != phase) incomplete("A step of " + std::string(phase) + " comes before " + std::string(open_) + ", begun at step " + std::to_string(begun_) + ", has ended.");
+  if (begins && open_ == phase) incomplete(std::string(phase) + " begins again before the run of step " + std::to_string(begun_) + " has ended.");
+  const bool expands = phase == epa && expandable_;
+  if (!begins && open_ != phase && !expands)
+    incomplete(std::string(kind) + " stands outside any run of " + std::string(phase) + (ends && last_ended_ == phase ? ": the last one has ended already." : ": none has begun."));
+  if (open_ != phase) begun_ = c_.step;
+  open_ = ends ? std::string_view() : phase;
+  if (!ends) return;
+  last_ended_ = phase;
+  expandable_ = phase == gjk || (expandable_ && phase == mpr);
+}
+
+void TraceCheck::finish() {
+  if (!open_.empty()) incomplete("The run of " + std::string(open_) + " that began at step " + std::to_string(begun_) + " never ends: the recording is cut off, or its last event is missing.");
+  if (motion_open_) incomplete("The cast never ends: the recording is cut off, or its last event is missing.");
+  if (!any_ && c_.recording.scene.scene.query != Query::simulate && c_.recording.result.status != "aborted") incomplete("There is an answer, but no step that leads to it.");
+}
+
+void TraceCheck::incomplete(const std::string& message) { c_.find("incomplete-trace", message + " Every phase that begins ends in exactly one event of its own."); }
+
+/// A number that was given out already would mean two things from here on.
+void TraceCheck::given(int number, bool is_new, const char* what) {
+  if (!is_new) c_.find("number-reused", std::string("The number ") + std::to_string(number) + " was given to " + what + " before: no number may be used twice in a recording.");
+}
+
+bool TraceCheck::belong_together(const AnyVector& a, const AnyVector& b, const AnyVector& w) {
+  if (!a.allFinite() || !b.allFinite() || !w.allFinite()) return false;
+  const AnyVector difference = a - b;
+  if ((difference - w).norm() <= c_.tolerance + far_out(a, b)) return true;
+  c_.find("wrong-support", "w is " + text_of(w) + ", but a - b is " + text_of(difference) + ". The usual causes are a + b, and b asked for along d instead of -d.");
+  return false;
+}
+
+/// World coordinates far from the origin have lost digits.
+double TraceCheck::far_out(const AnyVector& a, const AnyVector& b) const {
+  const bool single = c_.recording.settings.scalar == Scalar::float_precision;
+  return (single ? 1e-6 : 1e-14) * (a.norm() + b.norm());
+}
+
+void TraceCheck::judge(const recorded::VertexKept& e) { belong_together(e.a, e.b, e.w); }
+
+void TraceCheck::judge(const recorded::SupportQueried& e) {
+  if (!belong_together(e.a, e.b, e.w) || !c_.has_supports || !e.direction.allFinite() || e.direction.isZero(0)) return;
+  const AnyVector d = e.direction.stableNormalized();
+  for (const bool first : {true, false}) {
+    const AnyVector& point = first ? e.a : e.b;
+    const double beyond = c_.short_of_support(first ? 0 : 1, first ? d : AnyVector(-d), point);
+    if (beyond <= c_.tolerance + far_out(e.a, e.b)) continue;
+    c_.find("wrong-support", std::string(first ? "a = " : "b = ") + text_of(point) + " is not the farthest point of body " + (first ? "0 along d" : "1 along -d") + ": it is off by " + text_of(beyond) + ", for d = " + text_of(e.direction) +
+                                 ". The usual causes are a support that is asked for in the body's own frame, and a direction that was not turned into it.");
+    return;
+  }
+}
+
+/// Bounds of the bodies' signed distance. Where no depth is asked for, an overlap may count as 0.
+void TraceCheck::bounds(double lower, double upper) {
+  if (lower > upper + c_.tolerance) {
+    c_.find("wrong-bounds", "The lower bound " + text_of(lower) + " is above the upper one, " + text_of(upper) + ".");
+    return;
+  }
+  if (!c_.has_supports) return;
+  const Result& right = c_.reference();
+  const double limit = c_.answer_tolerance();
+  const bool depth_asked = c_.recording.scene.scene.query > Query::distance;
+  if (lower > (depth_asked ? *right.upper_bound : std::max(0.0, *right.upper_bound)) + limit || upper < *right.lower_bound - limit)
+    c_.find("wrong-bounds", "The bounds " + text_of(lower) + " and " + text_of(upper) + " of the signed distance leave the right one out, " + text_of(*right.signed_distance) + ".");
+}
+
+/// Along a unit normal the bodies are as far apart, or as little deep, as is said.
+void TraceCheck::along(const AnyVector& normal, double distance) {
+  if (!c_.has_supports || c_.inferred || !normal.allFinite() || normal.isZero(0)) return;
+  const double limit = c_.answer_tolerance();
+  if (std::abs(-c_.body_height(normal) - distance) <= limit) return;
+  const std::string said = "Along the normal " + text_of(normal) + " the bodies are said to be " + text_of(distance) + " apart (negative: overlapping), but they are " + text_of(-c_.body_height(normal));
+  if (std::abs(-c_.body_height(-normal) - distance) <= limit) c_.find("flipped-normal", said + "; the other way round it would be right. Normals point from body 0 towards body 1.");
+  else c_.find(distance > 0 ? "wrong-distance" : "wrong-depth", said + ".");
+}
+
+void TraceCheck::judge(const recorded::SimplexReduced& e) { bounds(e.lower_bound, e.upper_bound); }
+
+void TraceCheck::judge(const recorded::GjkEnded& e) {
+  bounds(e.lower_bound, e.upper_bound);
+  if (!c_.has_supports) return;
+  const double distance = *c_.reference().signed_distance, limit = c_.answer_tolerance();
+  const bool apart = e.status == GjkStatus::separated, cores_apart = e.status == GjkStatus::converged;
+  if ((apart && distance < -limit) || (cores_apart && distance < -limit - c_.radius))
+    c_.find("unjustified-separation", "GJK ended as \"" + std::string(gjk_status_names[static_cast<std::size_t>(e.status)]) + "\", but the bodies overlap, " + text_of(-distance) + " deep.");
+}
+
+void TraceCheck::judge(const recorded::PolytopeGrown& e) { bounds(-e.upper_bound, -e.lower_bound); }
+
+void TraceCheck::judge(const recorded::EpaEnded& e) {
+  if (e.status != EpaStatus::aborted) along(e.normal, -e.depth);
+}
+
+void TraceCheck::judge(const recorded::PortalFound& e) { bounds(e.lower_bound, e.upper_bound); }
+
+void TraceCheck::judge(const recorded::MprEnded& e) {
+  if (e.status != MprStatus::flat) along(e.normal, -e.depth);
+}
+
+void TraceCheck::judge(const recorded::AxisTested& e) {
+  bounds(e.lower_bound, e.upper_bound);
+  along(e.direction, e.distance);
+}
+
+void TraceCheck::judge(const recorded::SatEnded& e) { along(e.normal, e.distance); }
+
+void TraceCheck::judge(const recorded::ClosedFormEnded& e) { bounds(e.lower_bound, e.upper_bound); }
+
+}  // namespace gjkdbg
