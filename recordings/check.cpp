@@ -176,7 +176,7 @@ struct Walk {
   void operator()(const recorded::ClosedFormBegan&) {}
   void operator()(const recorded::LinesSolved&) {}
   void operator()(const recorded::ClosedFormEnded& e) { best_plane = std::max(best_plane, e.lower_bound + c.radius); }
-  /// Judged as a whole by check_motion.
+  /// Judged as a whole by check_cast and check_simulation.
   void operator()(const recorded::CastBegan&) {}
   void operator()(const recorded::CastAdvanced&) {}
   void operator()(const recorded::CastEnded&) {}
@@ -205,7 +205,7 @@ std::vector<Finding> check(const Recording& recording) {
   trace.finish();
   const Query query = recording.scene.scene.query;
   if (query == Query::cast || query == Query::simulate) {
-    check_motion(context);
+    query == Query::cast ? check_cast(context) : check_simulation(context);
     return context.take();
   }
   if (recording.result.status != "aborted") check_result(context, walk.best_plane);

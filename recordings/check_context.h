@@ -173,8 +173,10 @@ class EpaCheck {
 
 /// The answer against our own.
 void check_result(CheckContext& context, double best_plane);
-/// A cast or a simulation: tunnelling, energy, momentum, sinking, normals (check_motion.cpp).
-void check_motion(CheckContext& context);
+/// A cast: whether bodies meet, when, which, how, and where they end.
+void check_cast(CheckContext& context);
+/// A simulation: energy, momentum, sinking, and whether states follow from one another.
+void check_simulation(CheckContext& context);
 /// Whether the scene asks for more than is read of it.
 void check_need(CheckContext& context);
 

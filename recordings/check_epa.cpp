@@ -54,7 +54,7 @@ void EpaCheck::add(const recorded::Face& f) {
     for (const AnyVector& p : w) longest = std::max(longest, (p - w[0]).norm());
     const double area = face.normal.norm();
     const double scale = c_.dimension == 3 ? longest * longest : c_.size;
-    if (c_.dimension > 1 && area <= 1e-9 * scale && supports(f, w)) {
+    if (c_.dimension > 1 && area <= 1e-7 * scale && supports(f, w)) {
       face.normal = f.normal, face.distance = f.distance;  // thin, so that its corners do not tell its normal; the given one is right
     } else if (c_.dimension > 1 && area <= 1e-15 * scale) {
       c_.find("zero-area-face", "The face of vertices " + std::to_string(f.vertices[0]) + ", " + std::to_string(f.vertices[1]) + ", … has no area, so it has no normal. The usual cause is a new vertex in line with an edge of the horizon, or one "

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
+#include <functional>
 
 #include "recordings/comparison.h"
 #include "recordings/gallery.h"
@@ -214,6 +216,66 @@ TEST(Check, NamesANormalOfMprThatIsTurnedRound) {
   r = right;
   event<recorded::MprEnded>(r).normal *= -1;
   EXPECT_EQ(first(r), named(step_of<recorded::MprEnded>(r), "flipped-normal"));
+}
+
+/// The codes of a cast's result that was changed.
+std::string after(const char* scene, const std::function<void(Result&)>& edit) {
+  Recording r = recorded_scene(scene);
+  edit(r.result);
+  const std::vector<Finding> findings = check(r);
+  std::string codes;
+  for (const Finding& f : findings) codes += (codes.empty() ? "" : " ") + f.code;
+  return codes;
+}
+
+TEST(Check, NamesWhatACastSaysWrongly) {
+  const auto missed = [](Result& r) { r.intersecting = false, r.status = "miss", r.time = 1, r.pair.reset(), r.normal.reset(), r.witness_a.reset(), r.witness_b.reset(), r.touching_at.reset(); };
+  for (const char* scene : {"cast-bullet-thin-wall", "cast-rotating-rod", "cast-ray"}) {
+    EXPECT_EQ(after(scene, [](Result&) {}), "") << scene;
+    EXPECT_EQ(after(scene, missed), "wrong-answer tunnelling") << scene;
+    EXPECT_NE(after(scene, [](Result& r) { r.intersecting = false; }).find("wrong-answer"), std::string::npos) << scene;
+    EXPECT_NE(after(scene, [](Result& r) { r.time = 0; }).find("wrong-time"), std::string::npos) << scene;
+    EXPECT_NE(after(scene, [](Result& r) { r.time = *r.time + 0.01; }).find("wrong-time"), std::string::npos) << scene;
+    EXPECT_NE(after(scene, [](Result& r) { *r.time *= 0.9; }).find("wrong-time"), std::string::npos) << scene;
+    EXPECT_NE(after(scene, [](Result& r) { r.pair = {0, 7}; }).find("wrong-pair"), std::string::npos) << scene;
+    EXPECT_EQ(after(scene, [](Result& r) { r.normal->setZero(); }), "wrong-normal") << scene;
+    EXPECT_NE(after(scene, [](Result& r) { *r.normal *= -1; }).find("flipped-normal"), std::string::npos) << scene;
+    EXPECT_EQ(after(scene, [](Result& r) { (*r.witness_a)[0] += 5; }), "wrong-witness") << scene;
+  }
+  EXPECT_EQ(after("cast-grazing-miss", [](Result& r) { r.intersecting = true; }), "wrong-answer");
+  EXPECT_EQ(after("cast-bounce", [](Result& r) { (*r.bodies)[0].velocity *= 2; }), "wrong-state");
+  Recording r = recorded_scene("cast-rotating-rod");
+  event<recorded::CastAdvanced>(r, 1).distance += 0.1;
+  EXPECT_EQ(first(r), named(step_of<recorded::CastAdvanced>(r, 1), "wrong-distance"));
+  r = recorded_scene("cast-rotating-rod");
+  event<recorded::CastEnded>(r).time *= 0.5;
+  EXPECT_EQ(first(r), named(step_of<recorded::CastEnded>(r), "wrong-time"));
+}
+
+TEST(Check, NamesStatesThatDoNotFollow) {
+  const auto expect = [](const char* scene, const auto& edit, const char* code) {
+    Recording r = recorded_scene(scene);
+    EXPECT_EQ(first(r), "none") << scene;
+    edit(r);
+    EXPECT_EQ(first(r), named(step_of<recorded::State>(r, 2), code)) << scene;
+  };
+  for (const char* scene : {"sim-falling-box", "sim-spinning-box", "sim-explicit-euler", "sim-newtons-cradle"}) {
+    expect(scene, [](Recording& r) { event<recorded::State>(r, 2).time += 1e-3; }, "wrong-time");
+    expect(scene, [](Recording& r) { event<recorded::State>(r, 2).bodies[0].position[0] += 1e-3; }, "wrong-state");
+    expect(scene, [](Recording& r) { event<recorded::State>(r, 2).bodies[0].velocity[0] += 1e-3; }, "wrong-state");
+    expect(scene, [](Recording& r) { event<recorded::State>(r, 2).energy += 1e-2 * (1 + std::abs(event<recorded::State>(r, 2).energy)); }, "wrong-state");
+    expect(scene, [](Recording& r) { event<recorded::State>(r, 2).momentum[0] += 1e-3; }, "wrong-state");
+    EXPECT_EQ(after(scene, [](Result& r) { (*r.bodies)[0].position[0] += 1e-3; }), "wrong-state") << scene;
+    EXPECT_EQ(after(scene, [](Result& r) { *r.energy += 1; }), "wrong-state") << scene;
+    EXPECT_EQ(after(scene, [](Result& r) { *r.time += 1; }), "wrong-time") << scene;
+    EXPECT_EQ(after(scene, [](Result& r) { r.intersecting = !r.intersecting; }), "wrong-answer") << scene;
+  }
+  Recording r = recorded_scene("sim-newtons-cradle");
+  event<recorded::ImpulseApplied>(r).impulse *= 1.01;
+  EXPECT_EQ(check(r)[0].code, "wrong-state");
+  r = recorded_scene("sim-newtons-cradle");
+  event<recorded::ImpulseApplied>(r).velocities_after[1][0] += 0.01;
+  EXPECT_EQ(first(r), named(step_of<recorded::ImpulseApplied>(r), "wrong-state"));
 }
 
 /// A support that only ended the momentum was never part of the simplex; Jolt's rule asks once more.

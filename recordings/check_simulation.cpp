@@ -1,0 +1,225 @@
+// check, simulation: what a simulation may not do, whoever computed it.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "algo/motion.h"
+#include "recordings/check_context.h"
+#include "shapes/mass.h"
+
+namespace gjkdbg {
+namespace {
+
+using V3 = Eigen::Vector3d;
+using M3 = Eigen::Matrix3d;
+
+/// In space, the missing coordinates 0.
+V3 in_space(const AnyVector& v) {
+  V3 p = V3::Zero();
+  p.head(v.size()) = v;
+  return p;
+}
+
+/// A body at a time: its centre of mass and how that moves.
+struct Moving {
+  V3 place = V3::Zero(), velocity = V3::Zero(), spin = V3::Zero();
+  M3 rotation = M3::Identity();
+};
+
+struct SimulationCheck {
+  CheckContext& c;
+  const Scene& scene;
+  const SceneMotion& motion;
+  const V3 gravity;
+  std::vector<MassProperties> mass;
+
+  explicit SimulationCheck(CheckContext& context) : c(context), scene(c.recording.scene.scene), motion(*scene.motion), gravity(in_space(motion.gravity)) {
+    for (const Body& body : scene.bodies) mass.push_back(mass_properties(body.shape, scene.dimension));
+  }
+
+  const Motion& of(std::size_t i) const { return *scene.bodies[i].motion; }
+  bool exists(const Edge& pair) const {
+    const int n = static_cast<int>(scene.bodies.size());
+    return pair[0] != pair[1] && std::min(pair[0], pair[1]) >= 0 && std::max(pair[0], pair[1]) < n;
+  }
+
+  Moving moving(const recorded::State& state, std::size_t i) const {
+    const recorded::BodyState& b = state.bodies[i];
+    Moving m;
+    if (b.orientation.size() == 4) m.rotation = Eigen::Quaterniond(b.orientation[0], b.orientation[1], b.orientation[2], b.orientation[3]).normalized().toRotationMatrix();
+    if (b.angular_velocity.size() == 3) m.spin = V3(b.angular_velocity[0], b.angular_velocity[1], b.angular_velocity[2]);
+    if (b.angular_velocity.size() == 1) m.spin = V3(0, 0, b.angular_velocity[0]);
+    const V3 arm = m.rotation * mass[i].center;
+    m.place = in_space(b.position) + arm, m.velocity = in_space(b.velocity) + m.spin.cross(arm);
+    return m;
+  }
+
+  /// Over a step energy may change by what its order leaves, of the fall m (g h)^2 a body, and restitution only takes.
+  void states() const {
+    const SceneMotion& m = motion;
+    double fall = 0, total = 0;
+    bool walls = false;
+    for (const Body& body : scene.bodies) {
+      if (body.motion->is_static) walls = true;
+      else fall += body.motion->mass * m.gravity.squaredNorm() * m.time_step * m.time_step, total += body.motion->mass;
+    }
+    const recorded::State* before = nullptr;
+    bool touched = false;
+    for (std::size_t i = 0; i < c.recording.events.size(); ++i) {
+      const Event& event = c.recording.events[i];
+      c.step = i;
+      touched = touched || std::holds_alternative<recorded::ContactFound>(event);
+      if (const auto* contact = std::get_if<recorded::ContactFound>(&event); contact && exists(contact->pair)) sinking(*contact);
+      const auto* now = std::get_if<recorded::State>(&event);
+      if (!now) continue;
+      if (before) {
+        const double speed = std::sqrt(std::max(0.0, 2 * std::abs(before->energy) * std::max(total, 1e-300)));
+        if (now->energy > before->energy + 4 * fall + 1e-6 * std::abs(before->energy) + (touched ? m.gravity.norm() * total * 0.01 * c.size : 0))
+          c.find("energy-gained", "Energy rose from " + text_of(before->energy) + " to " + text_of(now->energy) + " between times " + text_of(before->time) + " and " + text_of(now->time) + ".");
+        const AnyVector expected = before->momentum + total * m.time_step * m.gravity;
+        if (!(walls && touched) && (now->momentum - expected).norm() > 1e-9 * (speed + total * m.gravity.norm() * m.time_step) + 1e-12)
+          c.find("momentum-lost", "Momentum went from " + text_of(before->momentum) + " to " + text_of(now->momentum) + ", expected " + text_of(expected) + ": nothing but gravity acts on these bodies from outside.");
+      }
+      before = now;
+      touched = false;
+    }
+  }
+
+  void sinking(const recorded::ContactFound& contact) const {
+    double size = 1e300;
+    for (const int i : contact.pair) size = std::min(size, reach_of(scene.bodies[static_cast<std::size_t>(i)].shape, scene.dimension));
+    if (contact.depth > 0.5 * size)
+      c.find("sinking", "Body " + std::to_string(contact.pair[1]) + " has sunk " + text_of(contact.depth) + " into body " + std::to_string(contact.pair[0]) + ", more than half its size: the time step is too long for its speed, or nothing holds it.", Finding::Severity::warning);
+  }
+
+  void walk() {
+    const recorded::State* before = nullptr;
+    std::vector<const recorded::ContactFound*> contacts;
+    std::vector<const recorded::ImpulseApplied*> impulses;
+    std::size_t first_impulse = 0;
+    int states = 0;
+    bool touched = false;
+    for (std::size_t i = 0; i < c.recording.events.size(); ++i) {
+      c.step = i;
+      const Event& event = c.recording.events[i];
+      const auto* contact = std::get_if<recorded::ContactFound>(&event);
+      const auto* impulse = std::get_if<recorded::ImpulseApplied>(&event);
+      if ((contact && !exists(contact->pair)) || (impulse && !exists(impulse->pair))) return c.find("wrong-pair", "The scene has no such pair of bodies.");
+      if (contact) contacts.push_back(contact);
+      if (impulse && impulses.empty()) first_impulse = i;
+      if (impulse) impulses.push_back(impulse);
+      const auto* now = std::get_if<recorded::State>(&event);
+      if (!now) continue;
+      if (now->bodies.size() != scene.bodies.size()) return c.find("wrong-state", "There are " + std::to_string(now->bodies.size()) + " bodies; the scene has " + std::to_string(scene.bodies.size()) + ".");
+      const double time = states++ * motion.time_step;
+      if (std::abs(now->time - time) > 1e-9 * (1 + time)) c.find("wrong-time", "State " + std::to_string(states - 1) + " is at time " + text_of(now->time) + ", expected " + text_of(time) + ".");
+      sums(*now);
+      if (before) advance(*before, *now, contacts, impulses, first_impulse);
+      else begins(*now);
+      touched = !contacts.empty();
+      contacts.clear(), impulses.clear();
+      before = now;
+    }
+    if (before) result(*before, states, touched);
+  }
+
+  /// The first state is the scene's.
+  void begins(const recorded::State& state) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+      if ((state.bodies[i].position - scene.bodies[i].pose.position).norm() > 1e-9 * c.size + c.tolerance) c.find("wrong-state", "Body " + std::to_string(i) + " begins at " + text_of(state.bodies[i].position) + "; the scene has it at " + text_of(scene.bodies[i].pose.position) + ".");
+  }
+
+  /// Energy and momentum are what places and velocities make them.
+  void sums(const recorded::State& state) {
+    double energy = 0, scale = 0, speed = 0;
+    V3 momentum = V3::Zero();
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      if (of(i).is_static) continue;
+      const Moving m = moving(state, i);
+      M3 inertia = of(i).mass * mass[i].inertia;
+      if (scene.dimension == 2) inertia = V3(0, 0, inertia(2, 2)).asDiagonal();
+      const V3 spin = m.rotation.transpose() * m.spin;
+      const double moves = of(i).mass * m.velocity.squaredNorm() / 2, turns = spin.dot(inertia * spin) / 2, falls = -of(i).mass * gravity.dot(m.place);
+      energy += moves + turns + falls, scale += moves + std::abs(turns) + std::abs(falls);
+      momentum += of(i).mass * m.velocity, speed += of(i).mass * m.velocity.norm();
+    }
+    if (std::abs(state.energy - energy) > 1e-6 * scale + 1e-12) c.find("wrong-state", "The energy is given as " + text_of(state.energy) + "; places and velocities make it " + text_of(energy) + ".");
+    if ((in_space(state.momentum) - momentum).norm() > 1e-9 * speed + 1e-12) c.find("wrong-state", "The momentum is given as " + text_of(state.momentum) + "; the velocities make it " + text_of(AnyVector(momentum)) + ".");
+  }
+
+  /// Velocities change by gravity and by the impulses, places by the velocities and by what contacts push apart.
+  void advance(const recorded::State& before, const recorded::State& now, const std::vector<const recorded::ContactFound*>& contacts, const std::vector<const recorded::ImpulseApplied*>& impulses, std::size_t first_impulse) {
+    const double h = motion.time_step;
+    const bool falls_last = motion.integrator == Integrator::explicit_euler;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      const Moving from = moving(before, i), to = moving(now, i);
+      const int number = static_cast<int>(i);
+      const bool fixed = of(i).is_static;
+      V3 change = fixed ? V3(V3::Zero()) : V3(gravity * h);
+      double push = 0;
+      bool touched = false;
+      for (const auto* e : contacts)
+        if (e->pair[0] == number || e->pair[1] == number) push += std::abs(e->depth), touched = true;
+      double speed = from.velocity.norm() + to.velocity.norm() + change.norm();
+      for (const auto* e : impulses)
+        if (!fixed && (e->pair[0] == number || e->pair[1] == number)) {
+          const V3 one = in_space(e->impulse) / of(i).mass;
+          change += e->pair[1] == number ? one : V3(-one), speed += one.norm();
+        }
+      const double slack = 1e-9 * speed + 1e-14;
+      const V3 gained = to.velocity - from.velocity;
+      if ((gained - change).norm() > slack)
+        c.find("wrong-state", "Body " + std::to_string(i) + " changes its velocity by " + text_of(AnyVector(gained)) + " in the step to time " + text_of(now.time) + "; gravity and impulses make that " + text_of(AnyVector(change)) + ".");
+      V3 used = falls_last && !fixed ? V3(to.velocity - gravity * h) : to.velocity;
+      if (motion.integrator == Integrator::rk4 && !fixed && !touched) used -= gravity * (h / 2);
+      const double off = (to.place - from.place - h * used).norm();
+      if (off > (fixed ? 0 : push) + 1e-9 * (speed * h + c.size) + 1e-12 * from.place.norm())
+        c.find("wrong-state", "Body " + std::to_string(i) + " is " + text_of(off) + " from where its velocity takes it by time " + text_of(now.time) + ".");
+      for (const auto* e : impulses) {
+        if (e->pair[0] != number && e->pair[1] != number) continue;
+        const std::size_t which = e->pair[0] == number ? 0 : 1;
+        if (e->velocities_before.size() != 2 || e->velocities_after.size() != 2) continue;
+        const V3 fall = fixed ? V3(V3::Zero()) : V3(gravity * h);
+        const V3 came = falls_last ? from.velocity : V3(from.velocity + fall), went = falls_last ? V3(to.velocity - fall) : to.velocity;
+        if ((in_space(e->velocities_before[which]) - came).norm() <= slack && (in_space(e->velocities_after[which]) - went).norm() <= slack) continue;
+        const std::size_t here = std::exchange(c.step, first_impulse);
+        c.find("wrong-state", "The velocities of body " + std::to_string(i) + " before and after its impulse are not those of the states: " + text_of(AnyVector(came)) + " and " + text_of(AnyVector(went)) + ".");
+        c.step = here;
+      }
+    }
+  }
+
+  /// The result is the last state.
+  void result(const recorded::State& last, int states, bool touched) {
+    const Result& r = c.recording.result;
+    c.step = c.recording.events.size() - 1;
+    if (r.status == "completed" && states != motion.steps + 1) c.find("wrong-time", std::to_string(states) + " states are recorded; " + std::to_string(motion.steps) + " steps make " + std::to_string(motion.steps + 1) + ".");
+    if (r.time && std::abs(*r.time - last.time) > 1e-9 * (1 + last.time)) c.find("wrong-time", "The result is of time " + text_of(*r.time) + ", the last state of " + text_of(last.time) + ".");
+    if (r.energy && std::abs(*r.energy - last.energy) > 1e-9 * std::abs(last.energy) + 1e-12) c.find("wrong-state", "The result's energy is " + text_of(*r.energy) + ", the last state's " + text_of(last.energy) + ".");
+    if (r.intersecting != touched) c.find("wrong-answer", std::string("intersecting is ") + (r.intersecting ? "true" : "false") + ", but the last step had " + (touched ? "contacts." : "none."));
+    if (!r.bodies) return;
+    bool same = r.bodies->size() == last.bodies.size();
+    for (std::size_t i = 0; same && i < last.bodies.size(); ++i) {
+      const FinalState& x = (*r.bodies)[i];
+      const recorded::BodyState& y = last.bodies[i];
+      same = (x.position - y.position).norm() <= 1e-9 * (c.size + y.position.norm()) && (x.velocity - y.velocity).norm() <= 1e-9 * y.velocity.norm() + 1e-14;
+      same = same && near(x.orientation, y.orientation) && near(x.angular_velocity, y.angular_velocity);
+    }
+    if (!same) c.find("wrong-state", "The bodies of the result are not where the last state has them, or do not move as it says.");
+  }
+
+  static bool near(const std::vector<double>& x, const std::vector<double>& y) {
+    return std::equal(x.begin(), x.end(), y.begin(), y.end(), [](double p, double q) { return std::abs(p - q) <= 1e-9 * (1 + std::abs(q)); });
+  }
+};
+
+}  // namespace
+
+void check_simulation(CheckContext& c) {
+  SimulationCheck judge(c);
+  judge.walk();
+  judge.states();
+}
+
+}  // namespace gjkdbg
