@@ -151,8 +151,8 @@ struct Walk {
     if (e.phase == Phase::gjk) {
       (*run_gjk)(e);
       best_plane = std::max(best_plane, run_gjk->best_plane());
-    } else {
-      c.check_direction(e.direction);
+    } else if (c.check_direction(e.direction)) {
+      (*run_epa)(e);
     }
     c.vertices[e.vertex] = e.w;
   }

@@ -85,6 +85,8 @@ class TraceCheck {
   double far_out(const AnyVector& a, const AnyVector& b) const;
   void bounds(double lower, double upper);
   void along(const AnyVector& normal, double distance);
+  void plane(const std::vector<int>& vertices, const AnyVector& normal, double distance);
+  void judge(const recorded::ClosedFormBegan& e) { segments_ = e; }
   void judge(const recorded::VertexKept& e);
   void judge(const recorded::SupportQueried& e);
   void judge(const recorded::SimplexReduced& e);
@@ -104,6 +106,7 @@ class TraceCheck {
   std::size_t begun_ = 0;
   bool any_ = false, expandable_ = false, motion_open_ = false, moved_ = false;
   std::set<int> faces_;
+  std::optional<recorded::ClosedFormBegan> segments_;
 };
 
 /// GJK's part of a run: directions, simplices, progress, and the claim it ends with.
@@ -143,6 +146,7 @@ class GjkCheck {
 class EpaCheck {
  public:
   explicit EpaCheck(CheckContext& context) : c_(context) {}
+  void operator()(const recorded::SupportQueried& e);
   void operator()(const recorded::PolytopeSeeded& e);
   void operator()(const recorded::FaceChosen& e);
   void operator()(const recorded::PolytopeGrown& e);
@@ -169,6 +173,7 @@ class EpaCheck {
   CheckContext& c_;
   std::map<int, Face> faces_;
   std::optional<int> chosen_;
+  AnyVector chosen_normal_;  ///< as recorded; empty after the query along it
 };
 
 /// The answer against our own.

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "recordings/check_context.h"
 
@@ -200,8 +201,16 @@ void EpaCheck::check_origin() {
     }
 }
 
+/// After a face is chosen, the support is asked for across it. A solver may ask as it likes.
+void EpaCheck::operator()(const recorded::SupportQueried& e) {
+  const AnyVector n = std::exchange(chosen_normal_, AnyVector());
+  if (e.phase != Phase::epa || c_.inferred || n.size() == 0 || n.isZero(0) || !n.allFinite()) return;
+  if (const AnyVector d = e.direction.stableNormalized(); (d - n.stableNormalized()).norm() > 1e-4)
+    c_.find("direction-not-perpendicular", "The direction " + text_of(e.direction) + " is not the normal of the face chosen, " + text_of(n) + ".", Finding::Severity::warning);
+}
+
 void EpaCheck::operator()(const recorded::FaceChosen& e) {
-  chosen_ = e.face;
+  chosen_ = e.face, chosen_normal_ = e.normal;
   const auto found = faces_.find(e.face);
   if (found == faces_.end() && !faces_.empty())
     c_.find("wrong-face", face_name(e.face) + " was chosen, but the polytope has none of this number: it was removed, or never there.");

@@ -137,7 +137,23 @@ void TraceCheck::along(const AnyVector& normal, double distance) {
   else c_.find(distance > 0 ? "wrong-distance" : "wrong-depth", said + ".");
 }
 
-void TraceCheck::judge(const recorded::SimplexReduced& e) { bounds(e.lower_bound, e.upper_bound); }
+/// The nearest point is the upper bound, radii taken off. (A recording of MPR has points of two kinds.)
+void TraceCheck::judge(const recorded::SimplexReduced& e) {
+  bounds(e.lower_bound, e.upper_bound);
+  if (!c_.has_supports || !c_.cores || e.closest.size() == 0 || !std::isfinite(e.upper_bound)) return;
+  const double right = e.closest.norm() - c_.radius;
+  if (std::abs(e.upper_bound - right) > std::max(c_.tolerance, 1e-7 * c_.size))
+    c_.find("wrong-bounds", "The nearest point is " + text_of(right) + " away, radii taken off, but the upper bound is " + text_of(e.upper_bound) + ".");
+}
+
+/// A plane with a unit normal, as far from the origin as the vertices named.
+void TraceCheck::plane(const std::vector<int>& vertices, const AnyVector& normal, double distance) {
+  for (const int v : vertices)
+    if (const AnyVector* w = c_.vertex(v); w && std::abs(normal.dot(*w) - distance) > std::max(c_.tolerance, 1e-7 * c_.size)) {
+      c_.find("wrong-face", "Along " + text_of(normal) + " vertex " + std::to_string(v) + " lies at " + text_of(normal.dot(*w)) + ", but the distance is given as " + text_of(distance) + ".");
+      return;
+    }
+}
 
 void TraceCheck::judge(const recorded::GjkEnded& e) {
   bounds(e.lower_bound, e.upper_bound);
@@ -154,7 +170,10 @@ void TraceCheck::judge(const recorded::EpaEnded& e) {
   if (e.status != EpaStatus::aborted) along(e.normal, -e.depth);
 }
 
-void TraceCheck::judge(const recorded::PortalFound& e) { bounds(e.lower_bound, e.upper_bound); }
+void TraceCheck::judge(const recorded::PortalFound& e) {
+  bounds(e.lower_bound, e.upper_bound);
+  plane(e.vertices, e.normal, e.distance);
+}
 
 void TraceCheck::judge(const recorded::MprEnded& e) {
   if (e.status != MprStatus::flat) along(e.normal, -e.depth);
@@ -163,10 +182,19 @@ void TraceCheck::judge(const recorded::MprEnded& e) {
 void TraceCheck::judge(const recorded::AxisTested& e) {
   bounds(e.lower_bound, e.upper_bound);
   along(e.direction, e.distance);
+  if (c_.has_supports && c_.cores) plane({e.vertex}, e.direction, -(e.distance + c_.radius));
 }
 
 void TraceCheck::judge(const recorded::SatEnded& e) { along(e.normal, e.distance); }
 
-void TraceCheck::judge(const recorded::ClosedFormEnded& e) { bounds(e.lower_bound, e.upper_bound); }
+/// The parameters give the nearest point, and along the normal the bodies are as far apart as the bounds say.
+void TraceCheck::judge(const recorded::ClosedFormEnded& e) {
+  bounds(e.lower_bound, e.upper_bound);
+  if (c_.recording.scene.scene.query > Query::distance) along(e.normal, (e.lower_bound + e.upper_bound) / 2);
+  if (!segments_ || !std::isfinite(e.s) || !std::isfinite(e.t)) return;
+  const AnyVector right = segments_->corner + e.s * segments_->edge_a - e.t * segments_->edge_b;
+  if ((right - e.closest).norm() > std::max(c_.tolerance, 1e-7 * c_.size))
+    c_.find("wrong-closest", "s = " + text_of(e.s) + " and t = " + text_of(e.t) + " give the point " + text_of(right) + ", but the nearest is given as " + text_of(e.closest) + ".");
+}
 
 }  // namespace gjkdbg

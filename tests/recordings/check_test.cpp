@@ -218,6 +218,28 @@ TEST(Check, NamesANormalOfMprThatIsTurnedRound) {
   EXPECT_EQ(first(r), named(step_of<recorded::MprEnded>(r), "flipped-normal"));
 }
 
+TEST(Check, NamesWhatOtherMethodsSayWrongly) {
+  SceneFile file = read_scene(read_gallery(GJKDBG_GALLERY).file("box-box-deep"));
+  change_name(file.method, MethodName::mpr);
+  Recording r = record(file);
+  event<recorded::PortalFound>(r).distance += 0.1;
+  EXPECT_EQ(first(r), named(step_of<recorded::PortalFound>(r), "wrong-face"));
+  change_name(file.method, MethodName::sat);
+  r = record(file);
+  EXPECT_EQ(first(r), "none");
+  event<recorded::AxisTested>(r, 2).distance += 0.1;
+  EXPECT_EQ(first(r), named(step_of<recorded::AxisTested>(r, 2), "wrong-depth"));
+  const Recording right = recorded_scene("closed-form-capsules");
+  EXPECT_EQ(first(right), "none");
+  r = right, event<recorded::ClosedFormEnded>(r).s += 0.1;
+  EXPECT_EQ(first(r), named(step_of<recorded::ClosedFormEnded>(r), "wrong-closest"));
+  r = right, event<recorded::ClosedFormEnded>(r).normal *= -1;
+  EXPECT_EQ(first(r), named(step_of<recorded::ClosedFormEnded>(r), "flipped-normal"));
+  r = recorded_scene("box-box-deep");
+  event<recorded::SimplexReduced>(r, 1).upper_bound += 0.1;
+  EXPECT_EQ(first(r), named(step_of<recorded::SimplexReduced>(r, 1), "wrong-bounds"));
+}
+
 /// The codes of a cast's result that was changed.
 std::string after(const char* scene, const std::function<void(Result&)>& edit) {
   Recording r = recorded_scene(scene);
