@@ -1,4 +1,7 @@
 // gjkdbg: one program, a command each (see debugger/commands/).
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
@@ -68,12 +71,14 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that leaves early is a write error, reported as one
+  std::signal(SIGPIPE, SIG_IGN);  // a solver or a reader that leaves early must not end the program
   const int status = run(argc, argv);
-  // What was printed is done only when it has arrived.
+  // What was printed is done only when it has arrived; or when the other end of a pipe has had enough, as in "gjkdbg scenes | head".
   errno = 0;
   std::cout.flush();
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout) return status;
+  struct stat output;
+  if (fstat(STDOUT_FILENO, &output) == 0 && S_ISFIFO(output.st_mode)) return status;
   if (status != gjkdbg::exit_bad_input) std::cerr << "gjkdbg: standard output: cannot be written" << (errno != 0 ? std::string(": ") + std::strerror(errno) : "") << "\n";
   return gjkdbg::exit_bad_input;
 }

@@ -190,7 +190,8 @@ void GjkCheck::check_cycle(const std::vector<int>& region) {
   repeated_from_.reset(), repeated_at_.reset();
   const bool other_between = last_region_ != key;
   last_region_ = key;
-  if (is_new || pending_.empty() || nearest_point(points(region)).v.norm() <= c_.tolerance) return;
+  const bool asks_on = other_between && c_.recording.settings.stopping == Stopping::jolt;  // until |v|^2 no longer falls, were it by rounding
+  if (is_new || asks_on || pending_.empty() || nearest_point(points(region)).v.norm() <= c_.tolerance) return;
   if (other_between)
     c_.find("cycle", "The simplex " + list_of(region) + " is that of step " + std::to_string(found->second) + " again: from here on everything repeats, and the search will never end. |v| must fall in every step; the usual cause is a region test that drops a vertex the nearest part needs.");
   else
