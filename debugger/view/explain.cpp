@@ -311,7 +311,10 @@ struct Summarise {
     return std::string(sat_status_names[static_cast<std::size_t>(e.status)]) + "  " + short_number(e.distance);
   }
   std::string operator()(const recorded::ClosedFormBegan& e) const { return "c = " + short_vector(e.corner); }
-  std::string operator()(const recorded::LinesSolved& e) const { return "s = " + short_number(e.s) + "  t = " + short_number(e.t); }
+  std::string operator()(const recorded::LinesSolved& e) const {
+    const std::string s = std::isnan(e.s) ? "" : "s = " + short_number(e.s), t = std::isnan(e.t) ? "" : "t = " + short_number(e.t);
+    return s.empty() || t.empty() ? s + t : s + "  " + t;
+  }
   std::string operator()(const recorded::ClosedFormEnded& e) const { return std::string(closed_form_status_names[static_cast<std::size_t>(e.status)]) + "  " + short_number((e.lower_bound + e.upper_bound) / 2); }
   std::string operator()(const recorded::CastBegan& e) const { return std::to_string(e.pairs.size()) + " pairs"; }
   std::string operator()(const recorded::CastAdvanced& e) const { return "t = " + short_number(e.time) + "  d = " + short_number(e.distance); }

@@ -1,6 +1,7 @@
 // Below the views, on the right: how the certificate closes in; of moving scenes distance, energy and momentum over time.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "debugger/view/app.h"
@@ -70,7 +71,7 @@ void bounds_plot(App& app, float width, float height) {
   const Settings& settings = s.recording().settings;
   const double size = std::abs(s.recording().result.signed_distance.value_or(0));
   const double floor = s.scene().scene.bodies.size() < 2 ? 0 : 2 * rounding_floor(s.scene().scene, settings), tolerance = std::max(settings.tolerance * size, 0.0);
-  double low = floor, high = floor;
+  double low = floor > 0 ? floor : std::numeric_limits<double>::infinity(), high = floor;  // points know no rounding, their radii do
   for (const auto* list : {&samples, &others})
     for (const Sample& x : *list) low = std::min(low, x.gap), high = std::max(high, x.gap);
   const double log_low = std::floor(std::log10(low)) - 1, log_high = std::max(log_low + 1, std::ceil(std::log10(high)));
