@@ -91,7 +91,7 @@ void regions(App& app) {
     if (found == frame.vertices.end()) return;
     points.push_back(found->second.w);
   }
-  section(theme, "EVERY PART, TESTED: |v|, OR A WEIGHT BELOW 0");
+  section(theme, "EVERY PART: |v|, OR A WEIGHT < 0");
   ImGui::PushFont(theme.mono);
   const float right = ImGui::GetWindowContentRegionMax().x;
   for (const RegionTest& test : region_tests(points)) {
