@@ -11,13 +11,18 @@
 //   n = e_i x R_j    (a_k |R_lj| + a_l |R_kj| + b_m |R_in| + b_n |R_im| - |p_l R_kj - p_k R_lj|) / |(R_kj, R_lj)|
 //                    with i k l and j m n cyclic: e_i x R_j is R_kj e_l - R_lj e_k, and (e_i x R_j) . R_m = +- R_in
 //
-// The least height is the depth, as in algo/sat.h; where it is negative and both witnesses lie on their boxes, it is the distance.
+// The least height is the depth, as in algo/sat.h; where it is negative and both witnesses lie on their boxes, it is the distance. Else the nearest
+// features are a corner and an edge or another corner, which no axis is made of. A point and its nearest on the other box, in turn, come to them in
+// a few steps, and points that are each the nearest to the other are the closest of all: a plane across at either has the whole box behind it
+// (alternating projections; Cheney, Goldstein 1959, theorem 2). The height along their difference proves it; where it does not, as when edges are nearly
+// parallel and the points creep, GJK is asked.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "algo/sat.h"
 
@@ -27,6 +32,13 @@ namespace gjkdbg {
 template <int D, class S>
 struct BoxWitnesses {
   Vector<D, S> a, b;
+};
+
+/// The points of the cores nearest to each other, with b - a = distance * normal. No points are nearer than lower_bound.
+template <int D, class S>
+struct BoxGap {
+  Vector<D, S> a, b, normal;
+  S distance, lower_bound;
 };
 
 template <class Difference, class Trace>
@@ -39,35 +51,41 @@ class BoxSat {
   /// Half sizes and centres in each box's own axes; keeps references.
   BoxSat(Difference& difference, const BoxCore<D, S>& a, const BoxCore<D, S>& b, Trace& trace)
       : difference_(difference), trace_(trace), floor_(difference.rounding_floor()), rotation_(difference.rotation()), half_a_(a.half()), half_b_(b.half()),
-        center_a_(a.center()), center_b_(difference.position() + rotation_ * b.center()), between_(center_b_ - center_a_), along_(rotation_.transpose() * between_),
-        magnitude_(rotation_.cwiseAbs()) {}
+        center_a_(a.center()), center_b_(difference.position() + rotation_ * b.center()), between_(center_b_ - center_a_), along_(rotation_.transpose() * between_) {
+    for (int i = 0; i < D; ++i)  // one by one, as they are read: see MinkowskiDifference::support
+      for (int j = 0; j < D; ++j) magnitude_[i][j] = std::abs(rotation_(i, j));
+  }
 
-  /// `enough`: the separation at which the search ends, >= 0.
+  /// `enough`: the separation that needs no more, >= 0; infinite where the distance is asked for.
   SatResult<D, S> run(S enough) {
     enough_ = enough;
     trace_(SatBegan<V, Viewed>{D, D, D == 3 ? 9 : 0});
     result_.status = all_axes();
     result_.normal = normal(best_);
-    if (result_.status == SatStatus::overlapping) result_.depth = result_.normal.dot(difference_.support(result_.normal).w);
+    if (result_.status == SatStatus::overlapping) result_.depth = height(result_.normal);
+    else if (-result_.depth <= enough_) gap_ = find_gap();
     if (result_.depth == 0) result_.depth = 0;
     trace_(SatEnded<V, Viewed>{result_.iterations, result_.status, result_.normal,
                                static_cast<double>(-result_.depth) - static_cast<double>(difference_.radius())});
     return result_;
   }
 
-  /// Unset where there are none on this axis: the closest features are corners or edges that no axis is made of, or rounding has the last word.
+  /// Of boxes that overlap. Unset where rounding has the last word.
   /// Features that lie flat on one another, or nearly so, share more than one point: projecting on one box and the other in turn finds one.
   std::optional<BoxWitnesses<D, S>> witnesses() const {
     const V out = result_.normal * result_.depth;
     V a = start(out);
-    for (int round = result_.depth < 0 ? 1 : 8; round > 0; --round) {
-      a = center_a_ + clamped(a - center_a_, half_a_);
-      const V b = rotation_.transpose() * (a - out - center_b_), on_b = clamped(b, half_b_);
-      if (((b - on_b).cwiseAbs().array() <= floor_).all()) return BoxWitnesses<D, S>{a, a - out};
-      a = center_b_ + rotation_ * on_b + out;
+    for (int round = 8; round > 0; --round) {
+      a = nearest_on_a(a);
+      const V b = in_b(a - out), on_b = clamped(b, half_b_);
+      if (near(b, on_b)) return BoxWitnesses<D, S>{a, a - out};
+      a = from_b(on_b) + out;
     }
     return std::nullopt;
   }
+
+  /// Of boxes that are apart, but by no more than enough. Unset where it is not proven.
+  const std::optional<BoxGap<D, S>>& gap() const { return gap_; }
 
  private:
   struct Axis {
@@ -77,9 +95,9 @@ class BoxSat {
 
   SatStatus all_axes() {
     for (int i = 0; i < D; ++i)
-      if (separates({AxisSource::face_a, i, 0}, half_a_[i] + magnitude_.row(i).dot(half_b_.transpose()) - std::abs(between_[i]))) return SatStatus::separated;
+      if (separates({AxisSource::face_a, i, 0}, half_a_[i] + reach(half_b_, [&](int j) { return magnitude_[i][j]; }) - std::abs(between_[i]))) return SatStatus::separated;
     for (int j = 0; j < D; ++j)
-      if (separates({AxisSource::face_b, 0, j}, half_b_[j] + magnitude_.col(j).dot(half_a_) - std::abs(along_[j]))) return SatStatus::separated;
+      if (separates({AxisSource::face_b, 0, j}, half_b_[j] + reach(half_a_, [&](int i) { return magnitude_[i][j]; }) - std::abs(along_[j]))) return SatStatus::separated;
     if constexpr (D == 3)
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
@@ -92,7 +110,7 @@ class BoxSat {
     const S x = rotation_(k, j), y = rotation_(l, j), squared = x * x + y * y;
     constexpr S parallel = S(64) * std::numeric_limits<S>::epsilon();
     if (!(squared > parallel * parallel)) return false;  // no face of its own; the faces beside have been tested
-    const S height = half_a_[k] * magnitude_(l, j) + half_a_[l] * magnitude_(k, j) + half_b_[m] * magnitude_(i, n) + half_b_[n] * magnitude_(i, m) -
+    const S height = half_a_[k] * magnitude_[l][j] + half_a_[l] * magnitude_[k][j] + half_b_[m] * magnitude_[i][n] + half_b_[n] * magnitude_[i][m] -
                      std::abs(between_[l] * x - between_[k] * y);
     if constexpr (!traced<Trace>)
       if (height >= std::max(S(0), result_.depth)) return count(), false;  // and more so, divided by a length of at most 1
@@ -128,8 +146,9 @@ class BoxSat {
     V n = V::Zero();
     if constexpr (D == 3) {
       const int k = next(axis.i), l = next(k);
-      n[k] = -rotation_(l, axis.j), n[l] = rotation_(k, axis.j);
-      n.normalize();
+      const S x = rotation_(k, axis.j), y = rotation_(l, axis.j), length = std::sqrt(x * x + y * y);
+      const auto component = [&](int i) { return i == k ? -y / length : i == l ? x / length : S(0); };
+      n = V(component(0), component(1), component(2));
     }
     return n.dot(between_) < 0 ? V(-n) : n;
   }
@@ -145,6 +164,58 @@ class BoxSat {
     for (int j = 0; j < D; ++j) corner += rotation_.col(j) * (rotation_.col(j).dot(d) < 0 ? -half_b_[j] : half_b_[j]);
     return corner;
   }
+
+  /// How far a box reaches along a direction with these sizes of components in its axes.
+  template <class Component>
+  static S reach(const V& half, Component component) {
+    S sum = half[0] * component(0);
+    for (int i = 1; i < D; ++i) sum += half[i] * component(i);
+    return sum;
+  }
+
+  /// h(n) of any unit direction.
+  S height(const V& n) const {
+    const V in_b = rotation_.transpose() * n;
+    return reach(half_a_, [&](int i) { return std::abs(n[i]); }) + reach(half_b_, [&](int j) { return std::abs(in_b[j]); }) - n.dot(between_);
+  }
+
+  /// Across the widest gap, or by projections: see above.
+  std::optional<BoxGap<D, S>> find_gap() {
+    const V out = result_.normal * result_.depth;
+    V a = nearest_on_a(start(out)), b = in_b(a - out), on_b = clamped(b, half_b_);
+    if (near(b, on_b)) return BoxGap<D, S>{a, a - out, result_.normal, -result_.depth, -result_.depth - floor_};
+    for (int round = 8; round > 0; --round) {
+      b = from_b(on_b);
+      a = nearest_on_a(b);
+      ++result_.iterations;
+      if constexpr (traced<Trace>) trace_projection(a, b);
+      const V before = std::exchange(on_b, clamped(in_b(a), half_b_));
+      if (near(on_b, before)) return proven_gap(a, b);
+    }
+    return std::nullopt;
+  }
+
+  std::optional<BoxGap<D, S>> proven_gap(const V& a, const V& b) {
+    const S distance = (b - a).norm();
+    if (!(distance > floor_)) return std::nullopt;
+    const V n = (b - a) / distance;
+    const S plane = -height(n);
+    if (distance - plane > 2 * floor_) return std::nullopt;
+    result_.normal = n, result_.depth = -distance;
+    return BoxGap<D, S>{a, b, n, distance, plane - floor_};
+  }
+
+  void trace_projection(const V& a, const V& b) {
+    const S distance = (b - a).norm(), plane = distance > 0 ? -height(V((b - a) / distance)) : S(0);
+    const double radius = static_cast<double>(difference_.radius());
+    trace_(PointsProjected<V, Viewed>{result_.iterations, a, b, V(a - b), static_cast<double>(std::max(plane, -result_.depth) - floor_) - radius,
+                                      static_cast<double>(distance + floor_) - radius});
+  }
+
+  V nearest_on_a(const V& p) const { return center_a_ + clamped(p - center_a_, half_a_); }
+  V in_b(const V& p) const { return rotation_.transpose() * (p - center_b_); }  ///< from A's axes, about A's reference, to B's, about its centre
+  V from_b(const V& p) const { return center_b_ + rotation_ * p; }
+  bool near(const V& p, const V& q) const { return ((p - q).cwiseAbs().array() <= floor_).all(); }
 
   static V clamped(const V& p, const V& half) { return p.cwiseMin(half).cwiseMax(-half); }
 
@@ -172,10 +243,11 @@ class BoxSat {
   const S floor_;
   const Matrix<D, S>& rotation_;
   const V half_a_, half_b_, center_a_, center_b_, between_, along_;
-  const Matrix<D, S> magnitude_;
+  S magnitude_[D][D];  ///< |R_ij|
   S enough_ = 0;
   Axis best_;
   SatResult<D, S> result_;
+  std::optional<BoxGap<D, S>> gap_;
 };
 
 }  // namespace gjkdbg

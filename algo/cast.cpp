@@ -214,7 +214,7 @@ class Caster {
     const Body &body_a = two.bodies[0], &body_b = two.bodies[1];
     const Convex<D, S> a(body_a.shape), b(body_b.shape);
     using Difference = MinkowskiDifference<D, S, Convex<D, S>>;
-    Difference cores(a, b, relative_pose<D, S>(body_a.pose, a.reference(), body_b.pose, b.reference(), 1));
+    Difference cores(a, b, body_a.pose, body_b.pose, 1);
     InflatedDifference<Difference> difference(cores);
     const WorkingFrame<D, S> frame(body_a.pose, a.reference(), 1);
     const Vector<D, double> relative = velocity(p.second) - velocity(p.first);

@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "shapes/convex.h"
 #include "shapes/double_double.h"
@@ -33,8 +34,8 @@ struct SupportPoint {
 /// Body 1 seen from body 0: b_0 = rotation * b_1 + position, both about the reference points of their cores.
 template <int D, class S>
 struct RelativePose {
-  Matrix<D, S> rotation = Matrix<D, S>::Identity();
-  Vector<D, S> position = Vector<D, S>::Zero();
+  Matrix<D, S> rotation, inverse;  ///< inverse: the transpose
+  Vector<D, S> position;
 };
 
 /// A pose in as many numbers as the dimension has.
@@ -65,7 +66,7 @@ RelativePose<D, S> relative_pose(const PlacedAxes<D>& pose_a, const Vector<D, do
   RelativePose<D, S> relative;
   for (int i = 0; i < D; ++i) {
     const auto axis = pose_a.rotation.col(i);
-    for (int j = 0; j < D; ++j) relative.rotation(i, j) = static_cast<S>(axis.dot(pose_b.rotation.col(j)));
+    for (int j = 0; j < D; ++j) relative.rotation(i, j) = relative.inverse(j, i) = static_cast<S>(axis.dot(pose_b.rotation.col(j)));
     relative.position[i] = static_cast<S>(axis.dot(high) + axis.dot(low));
   }
   return relative;
@@ -81,20 +82,16 @@ class MinkowskiDifference {
   using Point = SupportPoint<D, S>;
 
   /// Keeps references to the bodies.
-  MinkowskiDifference(const A& a, const B& b, const RelativePose<D, S>& pose)
-      : a_(a), b_(b), rotation_(pose.rotation), inverse_(pose.rotation.transpose()), position_(pose.position) {
-    const S magnitude = static_cast<S>(a.extent() + b.extent()) + position_.norm();
-    constexpr int roundings = std::is_same_v<S, double> ? 20 : 16;
-    rounding_floor_ = roundings * std::numeric_limits<S>::epsilon() / 2 * magnitude;
-  }
+  MinkowskiDifference(const A& a, const B& b, const PlacedAxes<D>& pose_a, const PlacedAxes<D>& pose_b, double scale)
+      : MinkowskiDifference(a, b, [&] { return relative_pose<D, S>(pose_a, a.reference(), pose_b, b.reference(), scale); }) {}
 
   /// The point of A - B farthest along d (body 0's frame, any length). Counts. All in one function (a tenth of the time of two boxes): a vector that
   /// a call returns is written number by number and read two at once, and a processor waits until such a write has reached the cache.
   [[gnu::flatten]] Point support(const V& d) {
     Point point;
     point.a = a_.support(d);
-    point.b.noalias() = rotation_ * b_.support(-(inverse_ * d));
-    point.b += position_;
+    point.b.noalias() = pose_.rotation * b_.support(-(pose_.inverse * d));
+    point.b += pose_.position;
     point.w = point.a - point.b;
     point.vertex = numbers_++;
     ++calls_;
@@ -104,19 +101,21 @@ class MinkowskiDifference {
   /// A vertex of known points, each in its core's own frame. Does not count as a support.
   Point kept(const V& a, const V& b) {
     Point point;
-    point.a = a, point.b = rotation_ * b + position_;
+    point.a = a, point.b = pose_.rotation * b + pose_.position;
     point.w = point.a - point.b;
     point.vertex = numbers_++;
     return point;
   }
   /// A point in body 0's frame, seen from body 1's core.
-  V from_b(const V& b) const { return inverse_ * (b - position_); }
+  V from_b(const V& b) const { return pose_.inverse * (b - pose_.position); }
 
   /// The difference of the same bodies with body 1 moved by an offset in body 0's frame.
-  MinkowskiDifference moved(const V& offset) const { return MinkowskiDifference(a_, b_, {rotation_, position_ + offset}); }
+  MinkowskiDifference moved(const V& offset) const {
+    return MinkowskiDifference(a_, b_, [&] { return RelativePose<D, S>{pose_.rotation, pose_.inverse, pose_.position + offset}; });
+  }
   /// A point inside: of a flat difference, in its plane.
-  V center() const { return a_.center() - (rotation_ * b_.center() + position_); }
-  const Matrix<D, S>& rotation() const { return rotation_; }  ///< body 1's axes in body 0's
+  V center() const { return a_.center() - (pose_.rotation * b_.center() + pose_.position); }
+  const Matrix<D, S>& rotation() const { return pose_.rotation; }  ///< body 1's axes in body 0's
   int support_calls() const { return calls_; }
   /// A height along a direction found without its point counts like a support.
   void count_support() { ++calls_; }
@@ -128,7 +127,7 @@ class MinkowskiDifference {
   S radius_b() const { return static_cast<S>(b_.radius()); }
   bool polytope() const { return a_.polytope() && b_.polytope(); }
   /// From A's reference point towards B's: a good first direction.
-  const V& position() const { return position_; }
+  const V& position() const { return pose_.position; }
 
   /// How far a computed support may be off, with u half an ulp of 1 and m = extent_a + extent_b + |p|: forming R b + p - a rounds 5 times, its
   /// product with a unit direction 5 times. An element of R is a sum of three products of the elements of two rotations: off by at most
@@ -137,10 +136,20 @@ class MinkowskiDifference {
   S rounding_floor() const { return rounding_floor_; }
 
  private:
+  /// Takes a function, so that the pose is written where it stays: copying what was just written number by number is what a processor waits for.
+  template <class Pose>
+    requires std::is_invocable_v<Pose>
+  MinkowskiDifference(const A& a, const B& b, const Pose& pose) : a_(a), b_(b), pose_(pose()) {
+    S squared = 0;
+    for (int i = 0; i < D; ++i) squared += pose_.position[i] * pose_.position[i];
+    const S magnitude = static_cast<S>(a.extent() + b.extent()) + std::sqrt(squared);
+    constexpr int roundings = std::is_same_v<S, double> ? 20 : 16;
+    rounding_floor_ = roundings * std::numeric_limits<S>::epsilon() / 2 * magnitude;
+  }
+
   const A& a_;
   const B& b_;
-  Matrix<D, S> rotation_, inverse_;
-  V position_;
+  const RelativePose<D, S> pose_;
   S rounding_floor_;
   int calls_ = 0, numbers_ = 0;
 };

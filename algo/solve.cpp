@@ -103,8 +103,7 @@ template <int D, class S>
 double floor_of(const Scene& scene) {
   const Pose &pose_a = scene.bodies[0].pose, &pose_b = scene.bodies[1].pose;
   const Convex<D, S> a(convex_parts(scene.bodies[0].shape)[0]), b(convex_parts(scene.bodies[1].shape)[0]);
-  const auto relative = relative_pose<D, S>(pose_a, a.reference(), pose_b, b.reference(), 1);
-  return static_cast<double>(MinkowskiDifference<D, S, Convex<D, S>>(a, b, relative).rounding_floor());
+  return static_cast<double>(MinkowskiDifference<D, S, Convex<D, S>>(a, b, pose_a, pose_b, 1).rounding_floor());
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ using PortalFound = gjkdbg::PortalFound<AnyVector, Viewed>;
 using MprEnded = gjkdbg::MprEnded<AnyVector, Viewed>;
 using SatBegan = gjkdbg::SatBegan<AnyVector, Viewed>;
 using AxisTested = gjkdbg::AxisTested<AnyVector, Viewed>;
+using PointsProjected = gjkdbg::PointsProjected<AnyVector, Viewed>;
 using SatEnded = gjkdbg::SatEnded<AnyVector, Viewed>;
 using ClosedFormBegan = gjkdbg::ClosedFormBegan<AnyVector, Viewed>;
 using LinesSolved = gjkdbg::LinesSolved<AnyVector, Viewed>;

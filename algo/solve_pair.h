@@ -64,7 +64,7 @@ class PairSolver {
   PairSolver(const A& a, const B& b, const PlacedAxes<D>& pose_a, const PlacedAxes<D>& pose_b, double scale, const Settings& settings,
              Workspace<D, S>& workspace, Trace& trace, const Features* features_a = nullptr, const Features* features_b = nullptr,
              WarmStart<D, S>* warm = nullptr)
-      : difference_(a, b, relative_pose<D, S>(pose_a, a.reference(), pose_b, b.reference(), scale)),
+      : difference_(a, b, pose_a, pose_b, scale),
         frame_(pose_a, a.reference(), scale), settings_(settings), workspace_(workspace), trace_(trace),
         radius_(a.radius() + b.radius()), polytopes_(a.polytope() && b.polytope()),
         features_a_(features_a), features_b_(features_b), warm_(settings.start == Start::previous ? warm : nullptr) {}
@@ -250,22 +250,19 @@ class PairSolver {
       if (!yes_or_no) sat_witnesses(found, sat.witnesses(), query);
       return true;
     }
-    const auto nearest = sat.witnesses();
-    if (nearest) apart_at(found, *nearest, query);
-    return nearest.has_value();
+    if (sat.gap()) apart_at(*sat.gap(), query);
+    return sat.gap().has_value();
   }
 
-  /// The widest gap, with a point of each box on its side of it: no other points are nearer.
-  void apart_at(const SatResult<D, S>& found, const BoxWitnesses<D, S>& nearest, Query query) {
-    const S gap = -found.depth;
-    result_->intersecting = static_cast<double>(gap) <= radius_;
+  void apart_at(const BoxGap<D, S>& found, Query query) {
+    result_->intersecting = static_cast<double>(found.distance) <= radius_;
     if (query == Query::intersect) return;
-    set_bounds(gap - difference_.rounding_floor(), gap + difference_.rounding_floor());
+    set_bounds(found.lower_bound, found.distance + difference_.rounding_floor());
     if (query == Query::distance) {
       no_bound_below_zero();
-      if (result_->intersecting) return set_common_point(*result_, frame_, nearest.a, nearest.b, radius_a(), radius_b());
+      if (result_->intersecting) return set_common_point(*result_, frame_, found.a, found.b, radius_a(), radius_b());
     }
-    witnesses(nearest.a, nearest.b, found.normal, gap);
+    witnesses(found.a, found.b, found.normal, found.distance);
   }
 
   /// False: apart, and the distance is asked for.

@@ -239,7 +239,23 @@ struct AxisTested {
   }
 };
 
-/// `normal` is the axis of least overlap or, when `separated`, the axis that separates; `distance` as in AxisTested.
+/// Of two boxes no axis of which tells the distance: a point of each core, `b` the nearest to the one before and `a` the nearest to `b`;
+/// `closest` is a - b. The bounds are of the bodies' signed distance.
+template <class V, class Store>
+struct PointsProjected {
+  static constexpr std::string_view kind = "points_projected";
+  int iteration = 0;
+  V a, b, closest;
+  double lower_bound = 0, upper_bound = 0;
+  static constexpr auto fields() {
+    return std::tuple(field("iteration", &PointsProjected::iteration), field("a", &PointsProjected::a), field("b", &PointsProjected::b),
+                      field("closest", &PointsProjected::closest), field("lower_bound", &PointsProjected::lower_bound),
+                      field("upper_bound", &PointsProjected::upper_bound));
+  }
+};
+
+/// `normal` is the axis of least overlap or, when `separated`, the one that separates, the direction between the nearest points where these are known;
+/// `distance` as in AxisTested.
 template <class V, class Store>
 struct SatEnded {
   static constexpr std::string_view kind = "sat_ended";
@@ -305,7 +321,7 @@ template <class V, class Store>
 using AllEvents = EventList<GjkBegan<V, Store>, VertexKept<V, Store>, SupportQueried<V, Store>, SimplexReduced<V, Store>, GjkEnded<V, Store>,
                             PolytopeSeeded<V, Store>, FaceChosen<V, Store>, PolytopeGrown<V, Store>, EpaEnded<V, Store>,
                             MprBegan<V, Store>, PortalFound<V, Store>, MprEnded<V, Store>, SatBegan<V, Store>,
-                            AxisTested<V, Store>, SatEnded<V, Store>, ClosedFormBegan<V, Store>, LinesSolved<V, Store>,
+                            AxisTested<V, Store>, PointsProjected<V, Store>, SatEnded<V, Store>, ClosedFormBegan<V, Store>, LinesSolved<V, Store>,
                             ClosedFormEnded<V, Store>, CastBegan<V, Store>, CastAdvanced<V, Store>,
                             CastEnded<V, Store>, State<V, Store>, ContactFound<V, Store>, ImpulseApplied<V, Store>,
                             Warning<V, Store>>;

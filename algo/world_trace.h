@@ -133,6 +133,10 @@ class WorldTrace {
                             length(e.lower_bound), length(e.upper_bound)});
   }
 
+  void operator()(const PointsProjected<V, Viewed>& e) {
+    sink_(world::PointsProjected{e.iteration, frame_.point(e.a), frame_.point(e.b), frame_.vector(e.closest), length(e.lower_bound), length(e.upper_bound)});
+  }
+
   void operator()(const SatEnded<V, Viewed>& e) {
     sink_(world::SatEnded{e.iteration, e.status, frame_.direction(e.normal), length(e.distance)});
   }

@@ -172,6 +172,7 @@ struct Walk {
   void operator()(const recorded::MprEnded&) {}
   void operator()(const recorded::SatBegan&) {}
   void operator()(const recorded::AxisTested& e) { best_plane = std::max(best_plane, e.distance + c.radius); }
+  void operator()(const recorded::PointsProjected& e) { best_plane = std::max(best_plane, e.lower_bound + c.radius); }
   void operator()(const recorded::SatEnded&) {}
   void operator()(const recorded::ClosedFormBegan&) {}
   void operator()(const recorded::LinesSolved&) {}

@@ -85,6 +85,7 @@ class TraceCheck {
   double far_out(const AnyVector& a, const AnyVector& b) const;
   void bounds(double lower, double upper);
   void along(const AnyVector& normal, double distance);
+  void nearest(const AnyVector& closest, double upper);
   void plane(const std::vector<int>& vertices, const AnyVector& normal, double distance);
   void judge(const recorded::ClosedFormBegan& e) { segments_ = e; }
   void judge(const recorded::VertexKept& e);
@@ -96,6 +97,7 @@ class TraceCheck {
   void judge(const recorded::PortalFound& e);
   void judge(const recorded::MprEnded& e);
   void judge(const recorded::AxisTested& e);
+  void judge(const recorded::PointsProjected& e);
   void judge(const recorded::SatEnded& e);
   void judge(const recorded::ClosedFormEnded& e);
   template <class E>

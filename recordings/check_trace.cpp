@@ -22,6 +22,7 @@ struct PhaseOf {
   std::string_view operator()(const recorded::PolytopeGrown&) const { return epa; }
   std::string_view operator()(const recorded::PortalFound&) const { return mpr; }
   std::string_view operator()(const recorded::AxisTested&) const { return sat; }
+  std::string_view operator()(const recorded::PointsProjected&) const { return sat; }
   std::string_view operator()(const recorded::LinesSolved&) const { return closed_form; }
   std::string_view operator()(const recorded::CastAdvanced&) const { return moving; }
   template <class E>
@@ -138,12 +139,16 @@ void TraceCheck::along(const AnyVector& normal, double distance) {
 }
 
 /// The nearest point is the upper bound, radii taken off. (A recording of MPR has points of two kinds.)
+void TraceCheck::nearest(const AnyVector& closest, double upper) {
+  if (!c_.has_supports || !c_.cores || closest.size() == 0 || !std::isfinite(upper)) return;
+  const double right = closest.norm() - c_.radius;
+  if (std::abs(upper - right) > std::max(c_.tolerance, 1e-7 * c_.size))
+    c_.find("wrong-bounds", "The nearest point is " + text_of(right) + " away, radii taken off, but the upper bound is " + text_of(upper) + ".");
+}
+
 void TraceCheck::judge(const recorded::SimplexReduced& e) {
   bounds(e.lower_bound, e.upper_bound);
-  if (!c_.has_supports || !c_.cores || e.closest.size() == 0 || !std::isfinite(e.upper_bound)) return;
-  const double right = e.closest.norm() - c_.radius;
-  if (std::abs(e.upper_bound - right) > std::max(c_.tolerance, 1e-7 * c_.size))
-    c_.find("wrong-bounds", "The nearest point is " + text_of(right) + " away, radii taken off, but the upper bound is " + text_of(e.upper_bound) + ".");
+  nearest(e.closest, e.upper_bound);
 }
 
 /// A plane with a unit normal, as far from the origin as the vertices named.
@@ -183,6 +188,11 @@ void TraceCheck::judge(const recorded::AxisTested& e) {
   bounds(e.lower_bound, e.upper_bound);
   along(e.direction, e.distance);
   if (c_.has_supports && c_.cores) plane({e.vertex}, e.direction, -(e.distance + c_.radius));
+}
+
+void TraceCheck::judge(const recorded::PointsProjected& e) {
+  bounds(e.lower_bound, e.upper_bound);
+  if (belong_together(e.a, e.b, e.closest)) nearest(e.closest, e.upper_bound);
 }
 
 void TraceCheck::judge(const recorded::SatEnded& e) { along(e.normal, e.distance); }

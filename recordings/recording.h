@@ -32,6 +32,7 @@ using PortalFound = gjkdbg::PortalFound<AnyVector, Owned>;
 using MprEnded = gjkdbg::MprEnded<AnyVector, Owned>;
 using SatBegan = gjkdbg::SatBegan<AnyVector, Owned>;
 using AxisTested = gjkdbg::AxisTested<AnyVector, Owned>;
+using PointsProjected = gjkdbg::PointsProjected<AnyVector, Owned>;
 using SatEnded = gjkdbg::SatEnded<AnyVector, Owned>;
 using ClosedFormBegan = gjkdbg::ClosedFormBegan<AnyVector, Owned>;
 using LinesSolved = gjkdbg::LinesSolved<AnyVector, Owned>;

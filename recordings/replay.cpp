@@ -141,6 +141,13 @@ struct Apply {
     bounds(e.lower_bound, e.upper_bound);
   }
 
+  void operator()(const recorded::PointsProjected& e) {
+    frame.iteration = e.iteration;
+    frame.closest = e.closest;
+    frame.newest.reset(), frame.direction.reset();
+    bounds(e.lower_bound, e.upper_bound);
+  }
+
   void operator()(const recorded::SatEnded& e) {
     frame.iteration = e.iteration;
     frame.sat_status = e.status;

@@ -20,6 +20,7 @@ class WorldPainter : public Painter {
     }
     velocities();
     supports();
+    projected();
     answer();
     return std::move(picture_);
   }
@@ -134,6 +135,18 @@ class WorldPainter : public Painter {
     }
   }
 
+
+  /// A point of each box, looking for the one nearest to the other.
+  void projected() {
+    const auto* e = std::get_if<recorded::PointsProjected>(&recording_.events[frame_.step]);
+    if (!e || (frame_.step + 1 == recording_.events.size() && recording_.result.witness_a)) return;
+    const ViewPoint a = to_view(e->a) + one_d_offset(0), b = to_view(e->b) + one_d_offset(1);
+    picture_.line(a, b, palette_.simplex, 1.6, Stroke::dashed);
+    picture_.points.push_back({a, palette_.simplex, 6, Mark::disc, -1});
+    picture_.points.push_back({b, palette_.simplex, 6, Mark::square, -1});
+    label(a, "a", palette_.simplex);
+    label(b, "b", palette_.simplex, 9, 10);
+  }
 
   /// At the last step: the witness points and the normal, and the contact points.
   void answer() {

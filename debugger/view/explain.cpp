@@ -210,9 +210,13 @@ struct Explain {
     return {"An axis without a gap", axis + "the bodies overlap by " + short_number(-e.distance) + (e.lower_bound <= e.distance ? ", the least so far: the depth is no more than that." : ", more than along the best axis so far.")};
   }
 
+  Explanation operator()(const recorded::PointsProjected& e) const {
+    return {"Points projected in turn", "No axis tells how far the boxes are apart: nearest to each other are a corner and an edge, or two corners. So a point looks for the nearest of the other box, and that for its nearest: a = " + short_vector(e.a) + ", b = " + short_vector(e.b) + ", " + short_number(e.closest.norm()) + " apart. Two points that are each the nearest to the other are the closest of all."};
+  }
+
   Explanation operator()(const recorded::SatEnded& e) const {
     const std::string title = "SAT ends: " + std::string(sat_status_names[static_cast<std::size_t>(e.status)]);
-    if (e.status == SatStatus::separated) return {title, "One separating axis is proof enough: the bodies (their cores) are apart. Where two boxes have a point each across the widest gap, that gap is the distance; else GJK measures it, if it is asked for."};
+    if (e.status == SatStatus::separated) return {title, "One separating axis is proof enough: the bodies (their cores) are apart. Of two boxes it leads from one nearest point to the other, unless rounding or edges nearly parallel leave that to GJK; of other bodies GJK measures the distance, if it is asked for."};
     return {title, "No axis separates, so the bodies overlap; the least overlap of all axes, " + short_number(-e.distance) + " along " + short_vector(e.normal) + ", is the depth, exactly."};
   }
 
@@ -307,6 +311,7 @@ struct Summarise {
   }
   std::string operator()(const recorded::SatBegan& e) const { return std::to_string(e.faces_a) + " + " + std::to_string(e.faces_b) + " faces, " + std::to_string(e.edge_pairs) + " edge pairs"; }
   std::string operator()(const recorded::AxisTested& e) const { return (e.distance > 0 ? "gap " : "overlap ") + short_number(std::abs(e.distance)); }
+  std::string operator()(const recorded::PointsProjected& e) const { return "|a - b| = " + short_number(e.closest.norm()); }
   std::string operator()(const recorded::SatEnded& e) const {
     return std::string(sat_status_names[static_cast<std::size_t>(e.status)]) + "  " + short_number(e.distance);
   }

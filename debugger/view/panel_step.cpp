@@ -173,7 +173,7 @@ void bounds(App& app) {
   if (!frame.lower_bound && !frame.upper_bound) return;
   section(theme, "SIGNED DISTANCE OF THE BODIES");
   const auto text = [](const std::optional<double>& x) { return x ? short_number(*x) : std::string("unknown"); };
-  const auto from = last_of<recorded::SimplexReduced, recorded::GjkEnded, recorded::PolytopeGrown, recorded::PortalFound, recorded::AxisTested, recorded::ClosedFormEnded>(app.session);
+  const auto from = last_of<recorded::SimplexReduced, recorded::GjkEnded, recorded::PolytopeGrown, recorded::PortalFound, recorded::AxisTested, recorded::PointsProjected, recorded::ClosedFormEnded>(app.session);
   number_row(app, "at most", text(frame.upper_bound), theme.palette.text, from);
   number_row(app, "at least", text(frame.lower_bound), theme.palette.text, from);
   if (frame.lower_bound && frame.upper_bound) number_row(theme, "gap", short_number(*frame.upper_bound - *frame.lower_bound), theme.palette.text_soft);

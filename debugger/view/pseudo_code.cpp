@@ -45,9 +45,11 @@ PseudoCode pseudo_code(const Recording& recording, std::size_t step) {
     else code.current = std::get<recorded::MprEnded>(event).status == MprStatus::separated ? 6 : std::get<recorded::MprEnded>(event).status == MprStatus::overlapping ? 4 : 7;
     return code;
   }
-  if (std::holds_alternative<recorded::SatBegan>(event) || std::holds_alternative<recorded::AxisTested>(event) || std::holds_alternative<recorded::SatEnded>(event) ||
+  if (std::holds_alternative<recorded::SatBegan>(event) || std::holds_alternative<recorded::AxisTested>(event) || std::holds_alternative<recorded::PointsProjected>(event) ||
+      std::holds_alternative<recorded::SatEnded>(event) ||
       (query && query->phase == Phase::sat)) {
     PseudoCode code{"SAT", {"for n in faces of A, faces of B,", "         edge of A x edge of B", "  w = support(n)", "  if n.w < 0: apart", "  depth = min(depth, n.w)", "overlap, depth"}, -1};
+    if (std::holds_alternative<recorded::PointsProjected>(event)) return {"SAT of two boxes, apart", {"a = a point of A at the widest gap", "repeat", "  b = point of B nearest a", "  a = point of A nearest b", "until neither moves"}, 3};
     if (std::holds_alternative<recorded::SatBegan>(event)) code.current = 0;
     else if (query) code.current = 2;
     else if (const auto* axis = std::get_if<recorded::AxisTested>(&event)) code.current = axis->distance > 0 ? 3 : 4;

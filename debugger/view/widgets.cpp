@@ -88,6 +88,7 @@ Colour event_colour(const Palette& p, const Event& event) {
     Colour operator()(const recorded::MprEnded&) const { return p.text; }
     Colour operator()(const recorded::SatBegan&) const { return p.text; }
     Colour operator()(const recorded::AxisTested&) const { return p.chosen; }
+    Colour operator()(const recorded::PointsProjected&) const { return p.simplex; }
     Colour operator()(const recorded::SatEnded&) const { return p.text; }
     Colour operator()(const recorded::ClosedFormBegan&) const { return p.text; }
     Colour operator()(const recorded::LinesSolved&) const { return p.simplex; }
@@ -104,7 +105,7 @@ Colour event_colour(const Palette& p, const Event& event) {
 }
 
 const char* short_kind(const Event& event) {
-  static const char* const names[] = {"begin", "kept", "support", "simplex", "end", "polytope", "face", "grow", "end", "begin", "portal", "end", "begin", "axis", "end", "begin", "lines", "end", "begin", "advance", "end", "state", "contact", "impulse", "warning"};
+  static const char* const names[] = {"begin", "kept", "support", "simplex", "end", "polytope", "face", "grow", "end", "begin", "portal", "end", "begin", "axis", "points", "end", "begin", "lines", "end", "begin", "advance", "end", "state", "contact", "impulse", "warning"};
   static_assert(std::size(names) == std::variant_size_v<Event>);
   return names[event.index()];
 }

@@ -129,6 +129,51 @@ TEST(BoxSat, AgreesWithExactArithmetic) {
   std::printf("worst error %.2g, in float %.2g of the size; %d of %d overlap, %d need GJK\n", worst, worst_float, overlapping, pairs(), by_gjk);
 }
 
+/// A corner nearest to a corner, to an edge, to a face, edges that cross, and what lies flat: no pair of boxes that are well apart needs GJK.
+TEST(BoxSat, ProjectsPointsWhereNoAxisTellsTheDistance) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int apart = 0, projected = 0;
+  for (int k = 0; k < 2000; ++k) {
+    Scene scene;
+    scene.dimension = 2 + k % 2, scene.query = Query::penetration;
+    for (int i = 0; i < 2; ++i) {
+      const AnyVector half = AnyVector::NullaryExpr(scene.dimension, [&] { return 0.6 + 0.4 * uniform(random); });
+      Body b{"", {Box{AnyVector(-half), half}, 0}, identity_pose(scene.dimension)};
+      b.pose.position = AnyVector::NullaryExpr(scene.dimension, [&] { return 2.5 * uniform(random); });
+      const Eigen::Vector4d q = Eigen::Vector4d::NullaryExpr([&] { return uniform(random); });
+      if (scene.dimension == 3) b.pose.matrix = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+      else b.pose.matrix = Eigen::Rotation2Dd(3 * q[0]).toRotationMatrix();
+      scene.bodies.push_back(b);
+    }
+    const auto exact = oracle::signed_distance(scene);
+    ASSERT_TRUE(exact);
+    if (exact->signed_distance < 1e-3) continue;
+    ++apart;
+    Recorder recorder;
+    const Result r = solve(scene, sat(scene), recorder);
+    EXPECT_EQ(r.status, "separated");
+    EXPECT_NEAR(*r.signed_distance, exact->signed_distance, 1e-14);
+    double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
+    int steps = 0;
+    for (const auto& event : recorder.take_all())
+      if (const auto* e = std::get_if<recorded::PointsProjected>(&event)) {
+        EXPECT_LE(e->upper_bound, upper + 1e-15) << "a projection never leads away";
+        EXPECT_LE(lower = e->lower_bound, exact->signed_distance);
+        EXPECT_GE(upper = e->upper_bound, exact->signed_distance);
+        EXPECT_LE(outside(scene.bodies[0], e->a) + outside(scene.bodies[1], e->b), 1e-14);
+        ++steps;
+      }
+    if (steps > 0) {
+      EXPECT_LE(upper - lower, 1e-13);
+    }
+    projected += steps > 0;
+    if (testing::Test::HasFailure()) break;
+  }
+  EXPECT_GT(apart, 500);
+  EXPECT_GT(projected, apart / 4);
+}
+
 TEST(BoxSat, TracesWhatItComputes) {
   BoxPairs random;
   for (int k = 0; k < 1000; ++k) {

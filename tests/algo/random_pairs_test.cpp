@@ -198,7 +198,7 @@ struct Planes {
 
   explicit Planes(const Scene& s)
       : a(s.bodies[0].shape), b(s.bodies[1].shape),
-        difference(a, b, relative_pose<D, double>(s.bodies[0].pose, a.reference(), s.bodies[1].pose, b.reference(), 1)),
+        difference(a, b, s.bodies[0].pose, s.bodies[1].pose, 1),
         frame(s.bodies[0].pose.matrix) {}
   /// The least signed distance that the plane along a unit world direction allows.
   double bound(const Vector<D, double>& world) {

@@ -229,7 +229,15 @@ TEST(Check, NamesWhatOtherMethodsSayWrongly) {
   EXPECT_EQ(first(r), "none");
   event<recorded::AxisTested>(r, 2).distance += 0.1;
   EXPECT_EQ(first(r), named(step_of<recorded::AxisTested>(r, 2), "wrong-depth"));
-  const Recording right = recorded_scene("closed-form-capsules");
+  Recording right = recorded_scene("sat-2d-apart");
+  EXPECT_EQ(first(right), "none");
+  r = right, event<recorded::PointsProjected>(r).a[0] += 0.1;
+  EXPECT_EQ(first(r), named(step_of<recorded::PointsProjected>(r), "wrong-support"));
+  r = right, event<recorded::PointsProjected>(r).lower_bound += 0.1;
+  EXPECT_EQ(first(r), named(step_of<recorded::PointsProjected>(r), "wrong-bounds"));
+  r = right, event<recorded::PointsProjected>(r).upper_bound += 0.1;
+  EXPECT_EQ(first(r), named(step_of<recorded::PointsProjected>(r), "wrong-bounds"));
+  right = recorded_scene("closed-form-capsules");
   EXPECT_EQ(first(right), "none");
   r = right, event<recorded::ClosedFormEnded>(r).s += 0.1;
   EXPECT_EQ(first(r), named(step_of<recorded::ClosedFormEnded>(r), "wrong-closest"));

@@ -42,6 +42,7 @@ struct Line {
   void operator()(const recorded::AxisTested& e) {
     out << "axis of " << axis_source_names[static_cast<std::size_t>(e.source)] << " along", vector(e.direction), out << ": " << e.distance;
   }
+  void operator()(const recorded::PointsProjected& e) { out << "points projected:", vector(e.a), vector(e.b); }
   void operator()(const recorded::SatEnded& e) {
     out << "sat ended " << sat_status_names[static_cast<std::size_t>(e.status)] << ": " << e.distance << " along", vector(e.normal);
   }
