@@ -74,9 +74,9 @@ Vector<D, S> SumCore<D, S>::support(const Vector<D, S>& d) const {
 }
 
 /// From how many vertices a hull has a table of directions. In the first-level cache the table beats a scan from about 50 on (tests/bench/support_bench);
-/// but it is nine times as large and its places lie apart, and of a thousand pairs met in turn nothing is in that cache. There two hulls of 128
-/// take 0.5 (deep) to 0.75 (apart) of the time with a scan, and 1.2 to 1.35 where the same few are asked for again and again.
-inline constexpr int table_from = 150;
+/// but it is nine times as large and its places lie apart, and of a thousand pairs met in turn nothing is in that cache. Two hulls of 128
+/// take 0.6 (apart) to 1.0 (deep) of the scan's time with the table where 200 pairs are met in turn, and 0.9 to 1.2 where 1,000 are; of 32, 1.0 to 1.5.
+inline constexpr int table_from = 100;
 
 /// Largest power of two not above 1 / (the shape's size): brings any scene to lengths near 1.
 double size_of(const Shape& shape);

@@ -1,8 +1,8 @@
 // The support mapping of a convex polytope with many vertices: a table of directions.
 //
 // A cube around the origin is cut into cells, about twice as many as the hull has vertices (but no more than 100,000), and every cell keeps the vertices
-// that are highest along one of its directions: about four, side by side in memory. A query looks at those
-// and nothing else, however many vertices there are.
+// that are highest along one of its directions: about four, side by side in memory, which is what the support of a large hull waits for. A query looks
+// at those and nothing else, however many vertices there are.
 //
 //       +---+---+---+        Whether vertex v can be left out of a cell with corners c1 … c4: if a neighbour u has
 //       |   |   | d |        (u - v) . ck > 0 for all k, it is higher than v along every direction of the cell, for these are
@@ -24,7 +24,6 @@
 #include <vector>
 
 #include "shapes/convex_hull.h"
-#include "shapes/vertex_fours.h"
 
 namespace gjkdbg {
 
@@ -43,6 +42,7 @@ class HullCore {
     const int cells = 6 * across_ * across_;
     std::vector<int> spread{0};
     std::vector<int> met(vertices.size(), -1);
+    cells_.resize(static_cast<std::size_t>(cells));
     for (int cell = 0; cell < cells; ++cell) {
       spread.assign(1, climb(vertices, hull, spread.front(), direction(cell, S(0.5), S(0.5))));
       met[static_cast<std::size_t>(spread.front())] = cell;
@@ -50,19 +50,23 @@ class HullCore {
       for (std::size_t i = 0; i < spread.size(); ++i)
         for (const int other : around(hull, spread[i]))
           if (std::exchange(met[static_cast<std::size_t>(other)], cell) != cell && !overtopped(vertices, hull, other, corners)) spread.push_back(other);
-      first_.push_back(static_cast<int>(highest_.fours()));
-      highest_.next_run();
-      for (const int i : spread) highest_.push_back(vertices[static_cast<std::size_t>(i)]);
+      keep(static_cast<std::size_t>(cell), vertices, spread);
     }
-    first_.push_back(static_cast<int>(highest_.fours()));
   }
 
   V center() const { return center_; }
-  std::size_t candidates() const { return 4 * highest_.fours(); }  ///< of all cells
+  std::size_t candidates() const { return Cell::places * cells_.size(); }  ///< places for them, in all cells
 
   V support(const V& d) const {
-    const int* range = first_.data() + cell_of(box_.cwiseProduct(d));
-    return highest_.highest(d, static_cast<std::size_t>(range[0]), static_cast<std::size_t>(range[1]));
+    const Cell* cell = cells_.data() + cell_of(box_.cwiseProduct(d));
+    Highest highest = cell->highest(d);
+    V best = cell->vertex(highest.place);
+    while (cell->next >= 0) {
+      cell = cells_.data() + cell->next;
+      const Highest other = cell->highest(d);
+      if (other.height > highest.height) highest = other, best = cell->vertex(other.place);
+    }
+    return best;
   }
 
  private:
@@ -112,10 +116,42 @@ class HullCore {
     return false;
   }
 
+  struct Highest {
+    std::size_t place;
+    S height;
+  };
+
+  /// Five vertices, coordinate by coordinate; where there are fewer, the last is there again. Two lines of the cache, in float one.
+  struct alignas(16 * sizeof(S)) Cell {
+    static constexpr std::size_t places = 5;
+    std::array<S, places> x, y, z;
+    int next = -1;  ///< >= 0: where there are more
+
+    V vertex(std::size_t i) const { return {x[i], y[i], z[i]}; }
+    void set(std::size_t i, const V& v) { x[i] = v[0], y[i] = v[1], z[i] = v[2]; }
+    Highest highest(const V& d) const {
+      std::array<S, places> height;
+      for (std::size_t i = 0; i < places; ++i) height[i] = x[i] * d[0] + y[i] * d[1] + z[i] * d[2];
+      const S low = std::max(height[1], height[0]), high = std::max(height[3], height[2]), four = std::max(high, low);
+      const std::size_t of_low = height[1] > height[0] ? 1 : 0, of_high = height[3] > height[2] ? 3 : 2, of_four = high > low ? of_high : of_low;
+      return {height[4] > four ? 4 : of_four, std::max(height[4], four)};
+    }
+  };
+
+  void keep(std::size_t cell, const std::vector<V>& vertices, std::span<const int> highest) {
+    for (;;) {
+      for (std::size_t i = 0; i < Cell::places; ++i) cells_[cell].set(i, vertices[static_cast<std::size_t>(highest[std::min(i, highest.size() - 1)])]);
+      if (highest.size() <= Cell::places) return;
+      highest = highest.subspan(Cell::places);
+      cells_[cell].next = static_cast<int>(cells_.size());
+      cell = cells_.size();
+      cells_.emplace_back();
+    }
+  }
+
   V center_ = V::Zero(), box_;
   int across_;
-  VertexFours<3, S> highest_;  ///< of cell i: the fours first_[i] … first_[i + 1] - 1
-  std::vector<int> first_;
+  std::vector<Cell> cells_;
 };
 
 }  // namespace gjkdbg

@@ -1,4 +1,4 @@
-// Vertices four by four, coordinate by coordinate, and the highest of a run of them along a direction.
+// Vertices four by four, coordinate by coordinate, and the highest of them along a direction.
 //
 //   x x x x   y y y y   z z z z | x x x x   y y y y   z z z z | …        where fewer than four are left, the last is there again
 #pragma once
@@ -32,37 +32,34 @@ class VertexFours {
       for (int c = 0; c < D; ++c) fours_.back()[static_cast<std::size_t>(c)].set(k, v[c]);
     ++size_;
   }
-  /// What is appended next begins a four of its own.
-  void next_run() { size_ = 4 * fours_.size(); }
-  std::size_t size() const { return size_; }  ///< with the places that next_run left out
-  std::size_t fours() const { return fours_.size(); }
+  std::size_t size() const { return size_; }
   V operator[](std::size_t i) const {
     V v;
     for (int c = 0; c < D; ++c) v[c] = fours_[i / 4][static_cast<std::size_t>(c)][i % 4];
     return v;
   }
 
-  /// The highest along d of the fours first … last - 1, of which there is one at least; of several as high, any.
-  V highest(const V& d, std::size_t first, std::size_t last) const {
-    GreatestOfFours<S> heights;
-    for (const Coordinates *four = fours_.data() + first, *const end = fours_.data() + last; four < end; ++four) {
-      Four<S> height;
-      for (int i = 0; i < Four<S>::parts; ++i) {
-        height.part[i] = (*four)[0].part[i] * d[0];
-        for (int c = 1; c < D; ++c) height.part[i] += (*four)[static_cast<std::size_t>(c)].part[i] * d[c];
-      }
-      heights.take(height);
-    }
-    return (*this)[4 * first + heights.found().place];
-  }
-  /// The same of all of them.
+  /// The highest along d, of one vertex at least; of several as high, any.
   V highest(const V& d) const {
 #ifdef GJKDBG_AVX2
     constexpr std::size_t worth_a_call = 3;
     if constexpr (D == 3 && sizeof(S) == 8)
       if (fours_.size() >= worth_a_call && __builtin_cpu_supports("avx2")) return (*this)[highest_by_avx2(fours_[0][0].data(), fours_.size(), d.data())];
 #endif
-    return highest(d, 0, fours_.size());
+    return highest_anywhere(d);
+  }
+  /// The same, on every processor.
+  V highest_anywhere(const V& d) const {
+    GreatestOfFours<S> heights;
+    for (const Coordinates& four : fours_) {
+      Four<S> height;
+      for (int i = 0; i < Four<S>::parts; ++i) {
+        height.part[i] = four[0].part[i] * d[0];
+        for (int c = 1; c < D; ++c) height.part[i] += four[static_cast<std::size_t>(c)].part[i] * d[c];
+      }
+      heights.take(height);
+    }
+    return (*this)[heights.found().place];
   }
 
  private:

@@ -105,7 +105,7 @@ TEST(Support, AScanOfAllFoursTakesTheVertexThatFourByFourIsTaken) {
       std::vector<V3> list;
       for (int i = 0; i < count; ++i) list.push_back(V3{whole(3), whole(3), whole(3)}), vertices.push_back(list.back());
       const V3 d{whole(2), whole(2), run % 3 == 0 ? random.uniform(-1, 1) : whole(2)}, highest = vertices.highest(d);
-      EXPECT_EQ(highest, vertices.highest(d, 0, vertices.fours()));
+      EXPECT_EQ(highest, vertices.highest_anywhere(d));
       const auto height = [&](const V3& v) { return v[0] * d[0] + v[1] * d[1] + v[2] * d[2]; };  // rounds as the scan does
       for (const V3& v : list) EXPECT_LE(height(v), height(highest));
     }
