@@ -93,50 +93,66 @@ class BoxSat {
     int i = 0, j = 0;  ///< of A, of B
   };
 
+  /// The search so far: no part of the object, so that it never leaves the registers.
+  struct Least {
+    S height = std::numeric_limits<S>::infinity();
+    Axis axis;
+    int tested = 0;
+  };
+
   SatStatus all_axes() {
-    for (int i = 0; i < D; ++i)
-      if (separates({AxisSource::face_a, i, 0}, half_a_[i] + reach(half_b_, [&](int j) { return magnitude_[i][j]; }) - std::abs(between_[i]))) return SatStatus::separated;
-    for (int j = 0; j < D; ++j)
-      if (separates({AxisSource::face_b, 0, j}, half_b_[j] + reach(half_a_, [&](int i) { return magnitude_[i][j]; }) - std::abs(along_[j]))) return SatStatus::separated;
-    if constexpr (D == 3)
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-          if (edges_separate(i, j)) return SatStatus::separated;
-    return result_.depth < -floor_ ? SatStatus::separated : SatStatus::overlapping;
+    using Coordinates = std::make_integer_sequence<int, D>;
+    Least least;
+    const bool apart = faces_a_separate(least, Coordinates{}) || faces_b_separate(least, Coordinates{}) || edge_pairs_separate(least, std::make_integer_sequence<int, D == 3 ? 9 : 0>{});
+    result_.iterations = least.tested, result_.depth = least.height, best_ = least.axis;
+    if constexpr (!traced<Trace>) difference_.count_supports(least.tested);  // an axis is a support of which only the height is wanted
+    return apart || result_.depth < -floor_ ? SatStatus::separated : SatStatus::overlapping;
   }
 
-  bool edges_separate(int i, int j) requires(D == 3) {
-    const int k = next(i), l = next(k), m = next(j), n = next(m);
+  // Spelled out axis by axis: places known to the compiler take half the instructions of a loop's.
+  template <int... i>
+  bool faces_a_separate(Least& least, std::integer_sequence<int, i...>) {
+    return (separates(least, {AxisSource::face_a, i, 0}, half_a_[i] + reach(half_b_, [&](int j) { return magnitude_[i][j]; }) - std::abs(between_[i])) || ...);
+  }
+  template <int... j>
+  bool faces_b_separate(Least& least, std::integer_sequence<int, j...>) {
+    return (separates(least, {AxisSource::face_b, 0, j}, half_b_[j] + reach(half_a_, [&](int i) { return magnitude_[i][j]; }) - std::abs(along_[j])) || ...);
+  }
+  template <int... pair>
+  bool edge_pairs_separate(Least& least, std::integer_sequence<int, pair...>) {
+    return (edges_separate<pair / 3, pair % 3>(least) || ...);
+  }
+
+  template <int i, int j>
+  [[gnu::always_inline]] inline bool edges_separate(Least& least) {
+    constexpr int k = next(i), l = next(k), m = next(j), n = next(m);
     const S x = rotation_(k, j), y = rotation_(l, j), squared = x * x + y * y;
     constexpr S parallel = S(64) * std::numeric_limits<S>::epsilon();
     if (!(squared > parallel * parallel)) return false;  // no face of its own; the faces beside have been tested
     const S height = half_a_[k] * magnitude_[l][j] + half_a_[l] * magnitude_[k][j] + half_b_[m] * magnitude_[i][n] + half_b_[n] * magnitude_[i][m] -
                      std::abs(between_[l] * x - between_[k] * y);
     if constexpr (!traced<Trace>)
-      if (height >= std::max(S(0), result_.depth)) return count(), false;  // and more so, divided by a length of at most 1
-    return separates({AxisSource::edge_pair, i, j}, height / std::sqrt(squared));
+      if (height >= std::max(S(0), least.height)) return ++least.tested, false;  // and more so, divided by a length of at most 1
+    return separates(least, {AxisSource::edge_pair, i, j}, height / std::sqrt(squared));
   }
 
   static constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
 
-  /// An axis is a support of which only the height is wanted; in a trace it is asked for in full.
-  void count() {
-    ++result_.iterations;
-    if constexpr (!traced<Trace>) difference_.count_support();
+  [[gnu::always_inline]] inline bool separates(Least& least, const Axis& axis, S height) {
+    if (height < least.height) least.height = height, least.axis = axis;
+    ++least.tested;
+    if constexpr (traced<Trace>) trace_axis(least, axis, height);
+    return -height > enough_ + floor_;
   }
 
-  bool separates(const Axis& axis, S height) {
-    if (result_.iterations == 0 || height < result_.depth) result_.depth = height, best_ = axis;
-    count();
-    if constexpr (traced<Trace>) {
-      const V n = normal(axis);
-      const auto point = difference_.support(n);
-      const double radius = static_cast<double>(difference_.radius());
-      trace_(SupportQueried<V, Viewed>{result_.iterations, Phase::sat, n, point.vertex, point.a, point.b, point.w});
-      trace_(AxisTested<V, Viewed>{result_.iterations, axis.source, point.vertex, n, static_cast<double>(-height) - radius,
-                                   static_cast<double>(-result_.depth - floor_) - radius, std::numeric_limits<double>::quiet_NaN()});
-    }
-    return -height > enough_ + floor_;
+  /// In a trace the support is asked for in full.
+  void trace_axis(const Least& least, const Axis& axis, S height) {
+    const V n = normal(axis);
+    const auto point = difference_.support(n);
+    const double radius = static_cast<double>(difference_.radius());
+    trace_(SupportQueried<V, Viewed>{least.tested, Phase::sat, n, point.vertex, point.a, point.b, point.w});
+    trace_(AxisTested<V, Viewed>{least.tested, axis.source, point.vertex, n, static_cast<double>(-height) - radius,
+                                 static_cast<double>(-least.height - floor_) - radius, std::numeric_limits<double>::quiet_NaN()});
   }
 
   /// Unit, towards B.

@@ -117,8 +117,8 @@ class MinkowskiDifference {
   V center() const { return a_.center() - (pose_.rotation * b_.center() + pose_.position); }
   const Matrix<D, S>& rotation() const { return pose_.rotation; }  ///< body 1's axes in body 0's
   int support_calls() const { return calls_; }
-  /// A height along a direction found without its point counts like a support.
-  void count_support() { ++calls_; }
+  /// Heights along directions found without their points count like supports.
+  void count_supports(int heights) { calls_ += heights; }
   const A& a() const { return a_; }
   const B& b() const { return b_; }
   /// Sum of the radii around the cores: the bodies' difference is the cores' plus a ball of this radius.
