@@ -105,9 +105,7 @@ struct Apply {
     frame.normal = e.normal;
     frame.depth = e.depth;
     frame.stage = Frame::Stage::done;
-    // The event has no bounds: the last step narrowed those of the last growth to the result's. (Of a motion the result is another.)
-    const Result& result = recording.result;
-    if (!recording.scene.scene.motion && result.lower_bound && result.upper_bound) bounds(*result.lower_bound, *result.upper_bound);
+    bounds_of_result();
   }
 
   void operator()(const recorded::MprBegan& e) {
@@ -153,6 +151,7 @@ struct Apply {
     frame.sat_status = e.status;
     frame.stage = Frame::Stage::done;
     if (e.status == SatStatus::overlapping) frame.normal = e.normal, frame.depth = -e.distance;
+    if (step + 1 == recording.events.size()) bounds_of_result();
   }
 
   void operator()(const recorded::ClosedFormBegan& e) {
@@ -253,6 +252,11 @@ struct Apply {
     frame.lower_bound.reset(), frame.upper_bound.reset();
     if (std::isfinite(lower)) frame.lower_bound = lower;
     if (std::isfinite(upper)) frame.upper_bound = upper;
+  }
+  /// For an event that ends the run and has no bounds: the last step narrowed them to the result's. (Of a motion the result is another.)
+  void bounds_of_result() {
+    const Result& result = recording.result;
+    if (!recording.scene.scene.motion && result.lower_bound && result.upper_bound) bounds(*result.lower_bound, *result.upper_bound);
   }
 };
 

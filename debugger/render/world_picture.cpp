@@ -139,7 +139,7 @@ class WorldPainter : public Painter {
   /// A point of each box, looking for the one nearest to the other.
   void projected() {
     const auto* e = std::get_if<recorded::PointsProjected>(&recording_.events[frame_.step]);
-    if (!e || (frame_.step + 1 == recording_.events.size() && recording_.result.witness_a)) return;
+    if (!e) return;
     const ViewPoint a = to_view(e->a) + one_d_offset(0), b = to_view(e->b) + one_d_offset(1);
     picture_.line(a, b, palette_.simplex, 1.6, Stroke::dashed);
     picture_.points.push_back({a, palette_.simplex, 6, Mark::disc, -1});

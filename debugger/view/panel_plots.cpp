@@ -26,7 +26,9 @@ std::vector<Sample> samples_of(const Recording& recording) {
         },
         recording.events[i]);
   const Result& r = recording.result;
-  if (r.upper_bound && r.lower_bound && phase_of(recording.events.back()) == 1) samples.push_back({recording.events.size() - 1, *r.upper_bound - *r.lower_bound, 1});
+  const Event& last = recording.events.back();
+  const bool without_bounds = std::holds_alternative<recorded::EpaEnded>(last) || std::holds_alternative<recorded::SatEnded>(last);
+  if (r.upper_bound && r.lower_bound && without_bounds) samples.push_back({recording.events.size() - 1, *r.upper_bound - *r.lower_bound, phase_of(last)});
   std::erase_if(samples, [](const Sample& x) { return !(x.gap > 0) || !std::isfinite(x.gap); });
   return samples;
 }

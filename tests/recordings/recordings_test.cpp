@@ -135,20 +135,22 @@ TEST(Replay, SeekingEqualsPlaying) {
   });
 }
 
-/// The step that shows the answer shows its bounds, not those of the growth before.
-TEST(Replay, EpaEndsWithTheBoundsOfTheResult) {
-  int ends = 0;
+/// The step that shows the answer shows its bounds, not those of the growth or the axis before.
+TEST(Replay, EpaAndSatEndWithTheBoundsOfTheResult) {
+  int ends = 0, of_sat = 0;
   for_gallery([&](const SceneFile& file) {
     const Recording recording = record(file);
     if (file.scene.motion) return;
     for (std::size_t i = 0; i < recording.events.size(); ++i) {
-      if (!std::holds_alternative<recorded::EpaEnded>(recording.events[i])) continue;
-      ++ends;
+      const bool sat = std::holds_alternative<recorded::SatEnded>(recording.events[i]) && i + 1 == recording.events.size() && recording.result.upper_bound;
+      if (!std::holds_alternative<recorded::EpaEnded>(recording.events[i]) && !sat) continue;
+      ++ends, of_sat += sat;
       EXPECT_EQ(frame_at(recording, i).lower_bound, recording.result.lower_bound);
       EXPECT_EQ(frame_at(recording, i).upper_bound, recording.result.upper_bound);
     }
   });
   EXPECT_GT(ends, 20);
+  EXPECT_GE(of_sat, 3);
 }
 
 TEST(Comparison, NamesTheFirstDifference) {
