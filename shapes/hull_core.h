@@ -1,13 +1,13 @@
 // The support mapping of a convex polytope with many vertices: a table of directions.
 //
 // A cube around the origin is cut into cells, about twice as many as the hull has vertices (but no more than 100,000), and every cell keeps the vertices
-// that are highest along one of its directions: about four, side by side in memory, which is what the support of a large hull waits for. A query looks
+// that are highest along one of its directions: three or four, side by side in memory, which is what the support of a large hull waits for. A query looks
 // at those and nothing else, however many vertices there are.
 //
-//       +---+---+---+        Whether vertex v can be left out of a cell with corners c1 … c4: if a neighbour u has
-//       |   |   | d |        (u - v) . ck > 0 for all k, it is higher than v along every direction of the cell, for these are
-//       +---+---+---+        sums of the corners with positive weights. Not every vertex that is never highest is found
-//       |   |   |   |        that way; those are looked at in vain.
+//       +---+---+---+        Vertex v is highest along d if (u - v) . d <= 0 for each of its neighbours u: a half of the plane the
+//       |   |   | d |        cell lies in. v belongs to the cell if these halves leave something of it: either one of its corners,
+//       +---+---+---+        or what is there when the cell has been cut by one after the other (Sutherland, Hodgman 1974).
+//       |   |   |   |
 //       +---+---+---+
 //
 // The vertices that are highest somewhere in a cell hang together along edges, as a cell is connected and the directions of
@@ -46,10 +46,10 @@ class HullCore {
     for (int cell = 0; cell < cells; ++cell) {
       spread.assign(1, climb(vertices, hull, spread.front(), direction(cell, S(0.5), S(0.5))));
       met[static_cast<std::size_t>(spread.front())] = cell;
-      const std::array<V, 4> corners{direction(cell, 0, 0), direction(cell, 0, 1), direction(cell, 1, 0), direction(cell, 1, 1)};
+      const std::array<V, 4> corners{direction(cell, 0, 0), direction(cell, 0, 1), direction(cell, 1, 1), direction(cell, 1, 0)};
       for (std::size_t i = 0; i < spread.size(); ++i)
         for (const int other : around(hull, spread[i]))
-          if (std::exchange(met[static_cast<std::size_t>(other)], cell) != cell && !overtopped(vertices, hull, other, corners)) spread.push_back(other);
+          if (std::exchange(met[static_cast<std::size_t>(other)], cell) != cell && highest_somewhere(vertices, hull, other, corners)) spread.push_back(other);
       keep(static_cast<std::size_t>(cell), vertices, spread);
     }
   }
@@ -107,13 +107,31 @@ class HullCore {
   }
 
   /// In the box's lengths all vertices lie within 1 and the corners within sqrt(3): what is higher by less than `rounding` may be so by mistake.
-  static bool overtopped(const std::vector<V>& vertices, const ConvexHull& hull, int vertex, const std::array<V, 4>& corners) {
+  static bool highest_somewhere(const std::vector<V>& vertices, const ConvexHull& hull, int vertex, const std::array<V, 4>& corners) {
     constexpr S rounding = 64 * std::numeric_limits<S>::epsilon();
+    const auto up_to = [&](int other) { return V(vertices[static_cast<std::size_t>(other)] - vertices[static_cast<std::size_t>(vertex)]); };
+    unsigned left_corners = 0b1111;
     for (const int other : around(hull, vertex)) {
-      const V up = vertices[static_cast<std::size_t>(other)] - vertices[static_cast<std::size_t>(vertex)];
-      if (std::all_of(corners.begin(), corners.end(), [&](const V& c) { return up.dot(c) > rounding; })) return true;
+      const V up = up_to(other);
+      unsigned higher = 0;
+      for (std::size_t k = 0; k < 4; ++k) higher |= static_cast<unsigned>(up.dot(corners[k]) > rounding) << k;
+      if (higher == 0b1111) return false;
+      left_corners &= ~higher;
     }
-    return false;
+    if (left_corners != 0) return true;
+    std::vector<V> left(corners.begin(), corners.end()), cut;
+    for (const int other : around(hull, vertex)) {
+      const V up = up_to(other);
+      cut.clear();
+      for (std::size_t i = 0; i < left.size(); ++i) {
+        const V &from = left[i], &to = left[(i + 1) % left.size()];
+        const S height = up.dot(from) - rounding, next = up.dot(to) - rounding;
+        if (height <= 0) cut.push_back(from);
+        if ((height < 0 && next > 0) || (height > 0 && next < 0)) cut.push_back(from + (to - from) * (height / (height - next)));
+      }
+      left.swap(cut);
+    }
+    return !left.empty();
   }
 
   struct Highest {
