@@ -24,6 +24,7 @@ struct Judge {
   const Result& r;
   const Result& right;  ///< penetration query
   double limit;        ///< absolute, on distances
+  bool portal;         ///< the depth is MPR's
 
   void answer(double best_plane) const {
     const double sd = *right.signed_distance;
@@ -84,7 +85,9 @@ struct Judge {
     const double out_a = outside(scene, 0, *r.witness_a), out_b = outside(scene, 1, *r.witness_b);
     if (out_a > slack || out_b > slack) {
       const bool a = out_a > slack;
-      c.find("wrong-witness", std::string("witness_") + (a ? "a " : "b ") + text_of(a ? *r.witness_a : *r.witness_b) + " lies " + text_of(a ? out_a : out_b) + " outside its body. The usual cause is weights that belong to other vertices, or to the wrong face.");
+      c.find("wrong-witness", std::string("witness_") + (a ? "a " : "b ") + text_of(a ? *r.witness_a : *r.witness_b) + " lies " + text_of(a ? out_a : out_b) + " outside its body. " +
+                                   (portal ? "The origin does not project into MPR's last portal: its depth bounds the right one from above, but no points of both bodies lie that far apart along its normal."
+                                           : "The usual cause is weights that belong to other vertices, or to the wrong face."));
       return;
     }
     if (!r.normal || !r.signed_distance) return;
@@ -106,7 +109,7 @@ void check_result(CheckContext& c, double best_plane) {
   // What says itself that it is not exact is judged by its own bounds.
   if (limited && recording.result.lower_bound && recording.result.upper_bound) limit += *recording.result.upper_bound - *recording.result.lower_bound;
   if (!recording.events.empty()) c.step = recording.events.size() - 1;
-  const Judge judge{c, recording.result, right, limit};
+  const Judge judge{c, recording.result, right, limit, portal};
   judge.answer(best_plane);
   judge.distance();
   judge.bounds();

@@ -39,6 +39,7 @@ TEST(Check, OurOwnRecordingsOfTheGalleryAreClean) {
 TEST(Check, EveryMethodsRecordingsAreReadBackAndClean) {
   const Gallery gallery = read_gallery(GJKDBG_GALLERY);
   std::vector<int> used(method_names.size());
+  int missed_portals = 0;
   for (const Lesson& lesson : gallery.lessons)
     for (const std::string& name : lesson.scenes)
       for (std::size_t m = 0; m < method_names.size(); ++m) {
@@ -57,8 +58,14 @@ TEST(Check, EveryMethodsRecordingsAreReadBackAndClean) {
         const Recording read = parse_recording(written, {});
         EXPECT_EQ(recording_to_text(read), written);
         EXPECT_FALSE(verify(read));
-        const bool by_mpr = read.settings.name == MethodName::mpr;  // where check still has findings in five scenes
-        EXPECT_EQ(by_mpr ? "" : text(check(read)), "");
+        const std::vector<Finding> findings = check(read);
+        if (read.settings.name == MethodName::mpr && findings.size() == 1) {
+          EXPECT_EQ(findings.front().code, "wrong-witness");
+          EXPECT_NE(findings.front().message.find("MPR's last portal"), std::string::npos);
+          EXPECT_LE(++missed_portals, 5);
+        } else {
+          EXPECT_EQ(text(findings), "");
+        }
         Replay replay(read);
         replay.at(read.events.size() - 1);
       }
@@ -68,7 +75,7 @@ TEST(Check, EveryMethodsRecordingsAreReadBackAndClean) {
 TEST(Check, PointsOutASceneThatAsksForMoreThanItReads) {
   SceneFile file = read_scene(read_gallery(GJKDBG_GALLERY).file("box-box-deep"));
   EXPECT_EQ(text(check(record(file))), "");
-  file.expect = Expectation{true, {}, {}, 1e-9};
+  file.expect = Expectation{.intersecting = true, .signed_distance = {}, .normal = {}, .time = {}};
   EXPECT_NE(text(check(record(file))).find("asks-too-much"), std::string::npos);
   file.scene.query = Query::intersect;
   EXPECT_EQ(text(check(record(file))), "");
