@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace gjkdbg {
 namespace {
@@ -22,38 +23,75 @@ double middle_depth(const std::vector<Projected>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-/// Labels look for a free place around their point, inside the view: right, left, above, below, and farther out.
-void place_labels(const Picture& picture, const Projection& project, std::vector<FlatItem>& out) {
-  struct Box {
-    double x, y, w, h;
-    bool meets(const Box& o) const { return x < o.x + o.w && o.x < x + w && y < o.y + o.h && o.y < y + h; }
+struct Box {
+  double x, y, w, h;
+  bool meets(const Box& o) const { return x < o.x + o.w && o.x < x + w && y < o.y + o.h && o.y < y + h; }
+};
+
+/// How much of a segment lies in a box: its parameters between each pair of sides (Liang, Barsky 1984).
+double length_inside(const Box& box, const Projected& p, const Projected& q) {
+  double from = 0, to = 1;
+  const auto between = [&](double start, double step, double low, double high) {
+    if (step == 0) return start > low && start < high;
+    const double s = (low - start) / step, t = (high - start) / step;
+    from = std::max(from, std::min(s, t)), to = std::min(to, std::max(s, t));
+    return from < to;
   };
-  std::vector<Box> taken;
-  const ViewRectangle& view = project.rectangle();
-  const auto fits = [&](const Box& box) {
-    if (box.x < view.x || box.x + box.w > view.x + view.width || box.y < view.y || box.y + box.h > view.y + view.height) return false;
-    return std::none_of(taken.begin(), taken.end(), [&](const Box& t) { return t.meets(box); });
-  };
+  const double dx = q.x - p.x, dy = q.y - p.y;
+  return between(p.x, dx, box.x, box.x + box.w) && between(p.y, dy, box.y, box.y + box.h) ? (to - from) * std::hypot(dx, dy) : 0;
+}
+
+/// Finds every label the place around its point, inside the view, where it hides least of other labels, points and strong lines; the first of equals.
+class LabelPlaces {
+ public:
+  LabelPlaces(const std::vector<FlatItem>& drawn, const ViewRectangle& view) : drawn_(drawn), view_(view) {}
+
+  Box take(const Projected& at, const PictureLabel& label) {
+    const double w = 8.5 * static_cast<double>(label.text.size()), h = 17, right = std::abs(label.dx), side = label.dy;
+    const auto centred = [&](double dx, double dy) { return Box{at.x + dx, at.y + dy - h / 2, w, h}; };
+    const std::array<Box, 12> boxes{centred(label.dx, side), centred(-right - w, side), centred(right, -side), centred(-right - w, -side),
+                                    centred(-w / 2, side - 14), centred(-w / 2, 14 - side), centred(right + 4, 0), centred(-right - 4 - w, 0),
+                                    centred(right + 14, side - 20), centred(right + 14, 20 - side), centred(-right - 14 - w, side - 20), centred(-right - 14 - w, 20 - side)};
+    const Box* best = &boxes.front();
+    double least = std::numeric_limits<double>::infinity();
+    for (const Box& box : boxes)
+      if (const double hidden = hides(box); hidden < least) least = hidden, best = &box;
+    taken_.push_back(*best);
+    return *best;
+  }
+
+ private:
+  /// In pixels of a strong line: a point counts as many as it is wide and some, a label or the border of the view far more.
+  double hides(const Box& box) const {
+    double sum = 0;
+    if (box.x < view_.x || box.x + box.w > view_.x + view_.width || box.y < view_.y || box.y + box.h > view_.y + view_.height) sum += 1000;
+    for (const Box& other : taken_) sum += box.meets(other) ? 200 : 0;
+    for (const FlatItem& item : drawn_) {
+      const Projected& p = item.points.front();
+      if (item.kind == FlatItem::Kind::point && box.meets({p.x - item.width, p.y - item.width, 2 * item.width, 2 * item.width})) sum += 2 * item.width + 10;
+      if (item.kind == FlatItem::Kind::line && item.width >= 2) sum += length_inside(box, p, item.points.back());
+    }
+    return sum;
+  }
+
+  const std::vector<FlatItem>& drawn_;
+  const ViewRectangle& view_;
+  std::vector<Box> taken_;
+};
+
+std::vector<FlatItem> placed_labels(const Picture& picture, const Projection& project, const std::vector<FlatItem>& drawn) {
+  LabelPlaces places(drawn, project.rectangle());
+  std::vector<FlatItem> out;
   for (const PictureLabel& label : picture.labels) {
     const Projected at = project(label.at);
-    const double w = 8.5 * static_cast<double>(label.text.size()), h = 17;
-    const std::array<std::array<double, 2>, 7> offsets{{{label.dx, label.dy}, {-label.dx - w, label.dy}, {label.dx, -label.dy}, {-label.dx - w, -label.dy},
-                                                        {-w / 2, label.dy - 14}, {-w / 2, -label.dy + 14}, {label.dx + 14, label.dy - 20}}};
-    Box best{at.x + offsets[0][0], at.y + offsets[0][1] - h / 2, w, h};
-    for (const auto& o : offsets) {
-      const Box box{at.x + o[0], at.y + o[1] - h / 2, w, h};
-      if (fits(box)) {
-        best = box;
-        break;
-      }
-    }
-    taken.push_back(best);
+    const Box box = places.take(at, label);
     FlatItem item;
     item.kind = FlatItem::Kind::label;
-    item.points = {{best.x, best.y, at.depth}};
+    item.points = {{box.x, box.y, at.depth}};
     item.colour = label.colour, item.text = label.text;
     out.push_back(std::move(item));
   }
+  return out;
 }
 
 }  // namespace
@@ -93,7 +131,7 @@ std::vector<FlatItem> flatten(const Picture& picture, const Projection& project)
     item.colour = point.colour, item.width = point.radius, item.mark = point.mark, item.vertex = point.vertex;
     out.push_back(std::move(item));
   }
-  place_labels(picture, project, out);
+  for (FlatItem& label : placed_labels(picture, project, out)) out.push_back(std::move(label));
   return out;
 }
 

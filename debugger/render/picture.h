@@ -69,7 +69,7 @@ struct FlatItem {
 };
 
 /// Projects and sorts back to front (faces by their middle, lines just before faces at the same depth; points and labels last).
-/// Labels that would cover one another are moved apart.
+/// Labels go to where they hide least of one another, of points and of strong lines.
 std::vector<FlatItem> flatten(const Picture& picture, const Projection& projection);
 
 /// As an SVG fragment (no document element).

@@ -112,7 +112,7 @@ bool begin_area(const char* name, const Area& area, bool scrolls = false);
 void section(const Theme& theme, const char* title);
 /// Broken between words only: never within a number.
 void wrapped(const std::string& text, Colour colour);
-/// A label on the left and a number in the monospaced font, right-aligned. With a source, the step that produced the number, a click goes there.
+/// A label on the left and a number in the monospaced font, right-aligned, below where there is no room beside. With a source, the step that produced the number, a click goes there.
 void number_row(const Theme& theme, const char* label, const std::string& value, Colour colour);
 void number_row(App& app, const char* label, const std::string& value, Colour colour, std::optional<std::size_t> source);
 /// One of several buttons of which one is `current`; width 0: as the text needs.

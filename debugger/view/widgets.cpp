@@ -33,10 +33,12 @@ void wrapped(const std::string& text, Colour colour) {
 }
 
 void number_row(const Theme& theme, const char* label, const std::string& value, Colour colour) {
+  const float left = ImGui::GetCursorPosX(), label_end = left + ImGui::CalcTextSize(label).x + theme.px(6);
   ImGui::TextColored(vec(theme.palette.text_soft), "%s", label);
   ImGui::PushFont(theme.mono);
-  const float width = ImGui::CalcTextSize(value.c_str()).x;
-  ImGui::SameLine(std::max(ImGui::GetCursorPosX() + theme.px(40), ImGui::GetWindowContentRegionMax().x - width));
+  const float at = std::max(left, ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x);
+  if (at > label_end) ImGui::SameLine(at);
+  else ImGui::SetCursorPosX(at);  // no room beside the label: below it
   ImGui::TextColored(vec(colour), "%s", value.c_str());
   ImGui::PopFont();
 }
