@@ -178,7 +178,9 @@ class ClosedForm {
     depth = std::max(S(0), depth);
     Nearest border = solve(c_ - depth * best, false);
     border.free_s = inside.free_s, border.free_t = inside.free_t;
-    return finish(ClosedFormStatus::overlapping, border, best, -depth, -depth - floor_, -depth + floor_, query);
+    Result r = finish(ClosedFormStatus::overlapping, border, best, -depth, -depth - floor_, -depth + floor_, query);
+    if (query == Query::distance) set_common_point(r, frame_, V(a0_ + inside.s * u_), V(a0_ - c_ + inside.t * v_), radius_a_, radius_b_);  // of the cores as they stand
+    return r;
   }
 
   /// Across both segments, or the longer one where they are parallel.

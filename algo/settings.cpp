@@ -69,6 +69,7 @@ void check_motion(const Settings& s, const Scene& scene) {
   if (scene.query != Query::cast && of_cast(s.name)) refuse("method \"" + name + "\" answers only the query \"cast\"", "/method/name");
   if (scene.query == Query::cast && !of_cast(s.name)) refuse("the query \"cast\" is answered by conservative-advancement, ray-cast or root-finding, not \"" + name + "\"", "/method/name");
   if (scene.query == Query::simulate && s.name == MethodName::closed_form) refuse("method \"closed-form\" does not answer the query \"simulate\"", "/method/name");
+  if (scene.query == Query::simulate && s.penetration == Penetration::none) refuse("penetration \"none\" tells no depth, which the query \"simulate\" needs", "/method/penetration");
   if (scene.query == Query::simulate && s.name == MethodName::gjk_boolean) refuse("method \"gjk-boolean\" answers only the query \"intersect\"", "/method/name");
   if (scene.query != Query::cast && scene.query != Query::simulate) return;
   const bool all = scene.motion && std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) { return body.motion.has_value(); });

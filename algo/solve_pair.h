@@ -86,7 +86,7 @@ class PairSolver {
     options.goal = query == Query::intersect  ? GjkGoal::intersect
                    : query == Query::distance ? GjkGoal::distance
                                               : GjkGoal::signed_distance;
-    options.tolerance = static_cast<S>(settings_.tolerance);
+    options.tolerance = tolerance_for(query);
     options.max_iterations = settings_.max_iterations;
     options.direction = first_direction();
     options.accelerated = settings_.name == MethodName::gjk_accelerated;
@@ -109,6 +109,12 @@ class PairSolver {
     } else {
       penetration();
     }
+  }
+
+  /// Yes or no is proven, not approximated: a coarse tolerance, meant for distances, has no say in it.
+  S tolerance_for(Query query) const {
+    constexpr double finest = std::is_same_v<S, double> ? 1e-10 : 1e-4;  // the defaults of curved pairs
+    return static_cast<S>(query == Query::intersect ? std::min(settings_.tolerance, finest) : settings_.tolerance);
   }
 
   void run_gjk(const GjkOptions<D, S>& options) {
@@ -165,7 +171,7 @@ class PairSolver {
     set_bounds(gjk_.lower_bound, gjk_.upper_bound);
     const bool undecided = gjk_.status == GjkStatus::stalled && gjk_.lower_bound <= 0;
     if (!gjk_.cores_overlap() && !undecided) return separated();
-    if (settings_.penetration == Penetration::none) return overlap_only();
+    if (settings_.penetration == Penetration::none) return overlap_only(-radius_ + rounding());
     if (settings_.penetration == Penetration::mpr) {
       const MprResult<D, S> found = run_mpr(true);
       if (found.decided) return portal_depth(found);
@@ -203,11 +209,22 @@ class PairSolver {
     if (!found.decided || (!found.overlapping() && query != Query::intersect)) return false;
     result_->intersecting = found.overlapping();
     if (query == Query::intersect) return true;
-    if (!depth) return overlapping_at(found.point_a, found.point_b), true;
+    if (!depth) {
+      const V common = on_the_ray(found);
+      return overlapping_at(common, common), true;
+    }
     if (settings_.penetration == Penetration::epa) return false;  // GJK's simplex is where EPA starts
-    if (settings_.penetration == Penetration::none) return overlap_only(), true;
+    if (settings_.penetration == Penetration::none) return overlap_only(0), true;
     portal_depth(found);
     return true;
+  }
+
+  /// The origin lies between the inner point v0 and where the ray leaves, p: O = v0 + t (p - v0); with the same weights the points of A and of B coincide.
+  V on_the_ray(const MprResult<D, S>& found) const {
+    const V v0 = difference_.center(), whole = found.point_a - found.point_b - v0;
+    const S length = whole.norm();
+    const V center = difference_.a().center();
+    return length > 0 ? V(center + std::min(S(1), v0.norm() / length) * (found.point_a - center)) : center;
   }
 
   void portal_depth(const MprResult<D, S>& found) {
@@ -277,6 +294,7 @@ class PairSolver {
   }
 
   void sat_witnesses(const SatResult<D, S>& found, const std::optional<BoxWitnesses<D, S>>& known, Query query) {
+    if (query == Query::distance) return inside_both();
     V a, b;
     if (known) {
       a = known->a, b = known->b;
@@ -284,7 +302,6 @@ class PairSolver {
       const GjkResult<D, S> touching = push_apart(found);
       a = touching.simplex.point_a(), b = touching.simplex.point_b() - push_;
     }
-    if (query == Query::distance) return overlapping_at(a, b);
     set_bounds(-found.depth - difference_.rounding_floor(), -found.depth + difference_.rounding_floor());
     witnesses(a, b, found.normal, -found.depth);
   }
@@ -303,17 +320,30 @@ class PairSolver {
     return nearest;
   }
 
-  /// The answer of a distance query to an overlap: a point of both, or as near to that as the method knows.
-  void overlapping_at(const V& a, const V& b) {
-    result_->intersecting = true;
-    result_->signed_distance = result_->lower_bound = result_->upper_bound = 0;
-    result_->witness_a = result_->witness_b = frame_.point(V((a + b) / 2));
+  /// A point of both bodies, which SAT does not come by: GJK's simplex makes one.
+  void inside_both() {
+    Difference same = difference_.moved(V::Zero());
+    GjkOptions<D, S> options;
+    options.goal = GjkGoal::distance;
+    options.direction = first_direction();
+    NoTrace silent;
+    GjkResult<D, S> nearest;
+    gjk<SignedVolumes<D, S>>(same, options, silent, nearest);
+    more_calls_ = same.support_calls();
+    overlapping_at(nearest.simplex.point_a(), nearest.simplex.point_b());
   }
 
-  void overlap_only() {
+  /// The answer of a distance query to an overlap, between points of the cores no farther from each other than the radii reach.
+  void overlapping_at(const V& a, const V& b) {
+    result_->intersecting = true;
+    result_->lower_bound = result_->upper_bound = 0;
+    set_common_point(*result_, frame_, a, b, radius_a(), radius_b());
+  }
+
+  void overlap_only(double upper) {
     result_->intersecting = true;
     result_->lower_bound.reset();
-    result_->upper_bound = length(-radius_ + rounding());
+    result_->upper_bound = length(upper);
   }
 
   /// From bounds of the cores' signed distance.

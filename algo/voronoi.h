@@ -13,6 +13,8 @@
 // Guard: a tetrahedron so flat that the side of its own fourth vertex is uncertain tries all four faces.
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <limits>
 
 #include "algo/simplex.h"
@@ -29,7 +31,7 @@ struct VoronoiRegions {
     if (size == 1) return part(w, {0}, {1}, 1);
     if (size == 2) {
       if constexpr (D == 1) {
-        if ((w[0][0] < 0) != (w[1][0] < 0) && w[0][0] != 0 && w[1][0] != 0) return enclosed(w, 2);
+        if ((w[0][0] < 0) != (w[1][0] < 0) && w[0][0] != 0 && w[1][0] != 0) return enclosed({std::abs(w[1][0]), std::abs(w[0][0])});
       }
       return segment(w, 0, 1);
     }
@@ -48,11 +50,13 @@ struct VoronoiRegions {
     return f;
   }
 
-  /// Weights of the origin itself are not needed by anyone: equal ones stand in.
-  static Feature enclosed(const V*, int count) {
+  /// The weight of a vertex is the volume (area, length) of the simplex with the origin in its place, over the whole.
+  static Feature enclosed(const std::array<S, D + 1>& volumes) {
     Feature f;
-    f.count = count, f.enclosed = true;
-    for (int i = 0; i < count; ++i) f.index[i] = i, f.weight[i] = S(1) / static_cast<S>(count);
+    f.count = D + 1, f.enclosed = true;
+    S sum = 0;
+    for (const S volume : volumes) sum += volume;
+    for (int i = 0; i <= D; ++i) f.index[i] = i, f.weight[i] = sum > 0 ? volumes[i] / sum : S(1) / (D + 1);
     return f;
   }
 
@@ -80,7 +84,7 @@ struct VoronoiRegions {
     if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0 && along > 0) return part(w, {b, c}, {1 - (d4 - d3) / along, (d4 - d3) / along}, 2);
     const S sum = va + vb + vc;
     if (!(sum > 0)) return nearest_edge(w, a, b, c);  // no area
-    if constexpr (D == 2) return enclosed(w, 3);
+    if constexpr (D == 2) return enclosed({va, vb, vc});
     return part(w, {a, b, c}, {va / sum, vb / sum, vc / sum}, 3);
   }
 
@@ -110,7 +114,9 @@ struct VoronoiRegions {
       const Feature candidate = triangle(w, a, b, c);
       if (best.count == 0 || candidate.v_squared < best.v_squared) best = candidate;
     }
-    return best.count == 0 ? enclosed(w, 4) : best;
+    if (best.count > 0) return best;
+    const auto volume = [&](int i, int j, int k) { return std::abs(w[i].dot(w[j].cross(w[k]))); };
+    return enclosed({volume(1, 2, 3), volume(0, 2, 3), volume(0, 1, 3), volume(0, 1, 2)});
   }
 };
 

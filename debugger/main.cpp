@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -11,16 +10,11 @@
 #include <iostream>
 
 #include "debugger/commands/commands.h"
+#include "debugger/commands/input.h"
 #include "recordings/json_reading.h"
 #include "recordings/recording.h"
 
 namespace {
-
-/// What is printed of an error: one line, whatever names the input brought along.
-std::string one_line(std::string text) {
-  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
-  return text;
-}
 
 /// What is wrong with the command line; of a command that there is not, its name.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& e) {

@@ -37,29 +37,33 @@ std::string text_of(const AnyVector& v) {
 
 CheckContext::CheckContext(const Recording& r) : recording(r), dimension(r.scene.scene.dimension), inferred(r.generator.starts_with("a solver under ")) {
   const auto& bodies = r.scene.scene.bodies;
-  for (const Event& event : r.events)
-    if (const auto q = given_vertex(event)) size = std::max(size, q->w.norm());
   const bool moves = r.scene.scene.query == Query::cast || r.scene.scene.query == Query::simulate;
   has_supports = !moves && std::none_of(bodies.begin(), bodies.end(), [](const Body& b) { return std::holds_alternative<Mesh>(b.shape.geometry); });
-  for (const Body& b : bodies) size = std::max(size, size_of(b.shape));
+  double reach = 0;  // no w is longer; what is, is wrong, and must not loosen the tolerances
+  for (const Body& b : bodies) size = std::max(size, size_of(b.shape)), reach += 2 * size_of(b.shape);
+  reach += moves || bodies.size() < 2 ? std::numeric_limits<double>::max() : (bodies[1].pose.position - bodies[0].pose.position).stableNorm();
+  for (const Event& event : r.events)
+    if (const auto q = given_vertex(event)) size = std::max(size, std::min(q->w.stableNorm(), reach));
   if (size == 0) size = 1;
   const bool single = r.settings.scalar == Scalar::float_precision;
   tolerance = (single ? 1e-4 : 1e-9) * size;
   stop = std::max(single ? 1e-3 : 1e-6, 8 * r.settings.tolerance);
   if (!has_supports) return;
   a_.emplace(bodies[0], dimension), b_.emplace(bodies[1], dimension);
-  radius = a_->radius() + b_->radius();
-  // Whose vertices are these? The first query with a direction tells.
-  for (const Event& event : r.events) {
-    const auto* q = std::get_if<recorded::SupportQueried>(&event);
-    if (!q || !q->direction.allFinite() || q->direction.isZero(0) || radius == 0) continue;
-    const double along = q->direction.stableNormalized().dot(q->w);
-    cores = std::abs(along - height(q->direction)) <= std::abs(along - body_height(q->direction));
-    break;
-  }
+  radius_ = a_->radius() + b_->radius();
+  // Whose vertices are these? The first query with a direction tells, of MPR's only where there are no others.
+  for (const bool of_mpr : {true, false})
+    for (const Event& event : r.events) {
+      const auto* q = std::get_if<recorded::SupportQueried>(&event);
+      if (!q || (q->phase == Phase::mpr) != of_mpr || !q->direction.allFinite() || q->direction.isZero(0) || radius_ == 0) continue;
+      const double along = q->direction.stableNormalized().dot(q->w);
+      cores = true;  // which `height` goes by
+      told_cores_ = std::abs(along - height(q->direction)) <= std::abs(along - body_height(q->direction));
+      break;
+    }
+  of_cores();
   const bool round = std::any_of(bodies.begin(), bodies.end(), [&](const Body& b) { return !corners_of(b.shape, dimension); });
-  if (round || (!cores && radius > 0)) stop = std::max(stop, 1e-3);  // bounds on smooth differences meet slowly, in any implementation
-  if (!cores) radius = 0;
+  if (round || (!cores && radius_ > 0)) stop = std::max(stop, 1e-3);  // bounds on smooth differences meet slowly, in any implementation
 }
 
 const Result& CheckContext::reference() {
@@ -167,7 +171,7 @@ struct Walk {
   void operator()(const recorded::PolytopeGrown& e) { (*run_epa)(e); }
   void operator()(const recorded::EpaEnded& e) { (*run_epa)(e); }
   /// Our own methods alone report these; the answer is judged at the end.
-  void operator()(const recorded::MprBegan&) {}
+  void operator()(const recorded::MprBegan&) { c.of_bodies(); }
   void operator()(const recorded::PortalFound&) {}
   void operator()(const recorded::MprEnded&) {}
   void operator()(const recorded::SatBegan&) {}
@@ -202,6 +206,7 @@ std::vector<Finding> check(const Recording& recording) {
     trace.order(recording.events[i]);
     std::visit(walk, recording.events[i]);
     trace.values(recording.events[i]);
+    if (std::holds_alternative<recorded::MprEnded>(recording.events[i])) context.of_cores();
   }
   trace.finish();
   const Query query = recording.scene.scene.query;

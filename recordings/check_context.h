@@ -37,6 +37,10 @@ class CheckContext {
   double radius = 0;                  ///< between the recorded vertices' difference and the bodies
   const bool inferred;                ///< whether the ends of phases were put down by `run`, from what the solver answered
 
+  /// MPR's vertices are of the whole bodies, whatever GJK's and EPA's are of.
+  void of_bodies() { cores = radius_ == 0, radius = 0; }
+  void of_cores() { cores = told_cores_, radius = told_cores_ ? radius_ : 0; }
+
   /// max d.w over the difference the vertices are from, divided by |d|.
   double height(const AnyVector& direction) const;
   /// The same over the bodies, radii included.
@@ -59,6 +63,8 @@ class CheckContext {
 
  private:
   std::optional<WorldSupport> a_, b_;
+  double radius_ = 0;       ///< of both bodies
+  bool told_cores_ = true;  ///< what `cores` is outside MPR
   std::optional<Result> reference_;
   std::vector<Finding> findings_;
   std::set<std::string> seen_;
@@ -130,7 +136,7 @@ class GjkCheck {
   void check_closest(const recorded::SimplexReduced& e);
   void check_cycle(const std::vector<int>& region);
   void check_repetition(const AnyVector& direction);
-  bool heuristic_region(const std::vector<int>& before, const AnyVector& v);
+  bool heuristic_region(const std::vector<int>& before, const std::vector<int>& region, const AnyVector& v);
 
   CheckContext& c_;
   std::vector<int> simplex_, pending_;  ///< kept, and queried since

@@ -117,9 +117,9 @@ void GjkCheck::operator()(const recorded::SupportQueried& e) {
   pending_.insert(pending_.begin(), e.vertex);
 }
 
-/// Of a tetrahedron, Muratori's form looks at one face after the other and keeps the part of the first that has the origin outside:
-/// not always the nearest part, but one from which the search goes on.
-bool GjkCheck::heuristic_region(const std::vector<int>& before, const AnyVector& v) {
+/// Of a tetrahedron, Muratori's form looks at one face after the other and keeps the part of the first that has the origin outside; of a triangle in
+/// the plane, others keep the first such edge: not always the nearest part, but one from which the search goes on.
+bool GjkCheck::heuristic_region(const std::vector<int>& before, const std::vector<int>& region, const AnyVector& v) {
   const std::vector<AnyVector> w = points(before);
   const std::size_t corners = static_cast<std::size_t>(c_.dimension) + 1;
   if (w.size() != corners) return false;
@@ -127,13 +127,14 @@ bool GjkCheck::heuristic_region(const std::vector<int>& before, const AnyVector&
     std::vector<AnyVector> face;
     for (std::size_t i = 0; i < corners; ++i)
       if (i != left_out) face.push_back(w[i]);
+    if (contains(region, before[left_out]) || (c_.dimension == 2 && region.size() != 2)) continue;
     AnyVector n;
     if (c_.dimension == 3) n = Eigen::Vector3d(face[1] - face[0]).cross(Eigen::Vector3d(face[2] - face[0]));
     else if (c_.dimension == 2) n = Eigen::Vector2d(face[1][1] - face[0][1], face[0][0] - face[1][0]);
     else n = AnyVector::Ones(1);
     if (n.dot(w[left_out] - face[0]) > 0) n = -n;
     const bool origin_outside = -n.dot(face[0]) >= -c_.tolerance * n.norm();
-    if (origin_outside && nearest_point(face).v.norm() >= v.norm() - c_.tolerance) return true;
+    if (origin_outside && std::abs(nearest_point(face).v.norm() - v.norm()) <= c_.tolerance) return true;
   }
   return false;
 }
@@ -150,7 +151,7 @@ void GjkCheck::check_region(const recorded::SimplexReduced& e) {
   if (kept.empty() || all.empty() || all.size() > 6) return;
   const NearestPoint best = nearest_point(all);
   const AnyVector v = nearest_point(kept).v;
-  if (v.norm() <= best.v.norm() + c_.tolerance || heuristic_region(before, v)) return;
+  if (v.norm() <= best.v.norm() + c_.tolerance || heuristic_region(before, e.region, v)) return;
   std::vector<int> right;
   for (const int i : best.subset) right.push_back(before[static_cast<std::size_t>(i)]);
   c_.find("wrong-region", "Of " + list_of(before) + " the part " + list_of(e.region) + " was kept, whose nearest point is " + text_of(v.norm()) + " from the origin. The part " + list_of(right) + " comes as near as " +
@@ -160,12 +161,14 @@ void GjkCheck::check_region(const recorded::SimplexReduced& e) {
 /// The weights make the nearest point of the vertices, and it is the nearest.
 void GjkCheck::check_closest(const recorded::SimplexReduced& e) {
   const std::vector<AnyVector> w = points(e.region);
-  if (w.size() != e.region.size() || e.closest.size() == 0 || e.closest.hasNaN()) return;
+  if (w.size() != e.region.size() || e.closest.size() == 0) return;
+  if (!e.closest.allFinite()) {
+    c_.find("wrong-closest", "The nearest point of " + list_of(e.region) + " is given as " + text_of(e.closest) + ", which is no point. The usual cause is a division by the length, area or volume of a simplex that has none.");
+    return;
+  }
   const double limit = std::max(c_.tolerance, 1e-7 * c_.size);
   const double nearest = nearest_point(w).v.norm();
-  // Johnson's and the Voronoi tests end without weights when the simplex holds the origin.
-  const bool enclosed = e.closest.isZero(0) && static_cast<int>(w.size()) == c_.dimension + 1 && c_.recording.settings.closest_point != ClosestPoint::signed_volumes;
-  if (!e.barycentric.empty() && !enclosed) {
+  if (!e.barycentric.empty()) {
     AnyVector sum = AnyVector::Zero(c_.dimension);
     double total = 0, least = 0;
     for (std::size_t i = 0; i < std::min(w.size(), e.barycentric.size()); ++i) sum += e.barycentric[i] * w[i], total += e.barycentric[i], least = std::min(least, e.barycentric[i]);
@@ -181,8 +184,10 @@ void GjkCheck::check_closest(const recorded::SimplexReduced& e) {
 
 /// Remembers simplices by where their vertices are.
 void GjkCheck::check_cycle(const std::vector<int>& region) {
+  const std::vector<AnyVector> vertices = points(region);
+  if (vertices.empty()) return;
   std::vector<std::string> keys;
-  for (const AnyVector& w : points(region)) keys.push_back(key_of(w));
+  for (const AnyVector& w : vertices) keys.push_back(key_of(w));
   std::sort(keys.begin(), keys.end());
   std::string key;
   for (const std::string& k : keys) key += k;
@@ -191,7 +196,7 @@ void GjkCheck::check_cycle(const std::vector<int>& region) {
   const bool other_between = last_region_ != key;
   last_region_ = key;
   const bool asks_on = other_between && c_.recording.settings.stopping == Stopping::jolt;  // until |v|^2 no longer falls, were it by rounding
-  if (is_new || asks_on || pending_.empty() || nearest_point(points(region)).v.norm() <= c_.tolerance) return;
+  if (is_new || asks_on || pending_.empty() || nearest_point(vertices).v.norm() <= c_.tolerance) return;
   if (other_between)
     c_.find("cycle", "The simplex " + list_of(region) + " is that of step " + std::to_string(found->second) + " again: from here on everything repeats, and the search will never end. |v| must fall in every step; the usual cause is a region test that drops a vertex the nearest part needs.");
   else
@@ -203,6 +208,10 @@ void GjkCheck::operator()(const recorded::SimplexReduced& e) {
   std::vector<int> sorted = e.region;
   std::sort(sorted.begin(), sorted.end());
   const std::vector<AnyVector> w = points(e.region);
+  if (e.region.empty()) {
+    c_.find("wrong-region", "Nothing was kept of " + list_of(e.before) + ". One part of every simplex is nearest the origin: at the least a vertex.");
+    return;
+  }
   bool twice = std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
   for (std::size_t i = 0; i < w.size(); ++i)
     for (std::size_t j = i + 1; j < w.size(); ++j) twice = twice || w[i] == w[j];

@@ -25,12 +25,16 @@ struct Judge {
   const Result& right;  ///< penetration query
   double limit;        ///< absolute, on distances
   bool portal;         ///< the depth is MPR's
+  bool limited;        ///< says itself that it is not exact
 
   void answer(double best_plane) const {
     const double sd = *right.signed_distance;
-    if (std::abs(sd) <= limit || r.intersecting == (sd <= 0)) return;
-    if (!r.intersecting)
+    if (std::abs(sd) <= limit) return;
+    const bool right_answer = r.intersecting == (sd <= 0), asked = best_plane > -1e300;
+    // Who asks no support at all may know by other means; who does, goes by what the supports prove.
+    if (!r.intersecting && (!right_answer || (asked && c.has_supports && !limited && best_plane - c.radius < -limit)))
       c.find("unjustified-separation", "The bodies are called apart, but no support proves it: the best plane leaves " + text_of(best_plane - c.radius) + " between them, and it takes a positive number. The usual cause is the wrong sign in the test whether the support passed the origin.");
+    if (right_answer) return;
     c.find("wrong-answer", std::string("The bodies are called ") + (r.intersecting ? "overlapping" : "apart") + ", but they are " + (sd <= 0 ? "overlapping, " + text_of(-sd) + " deep" : "apart by " + text_of(sd)) + ".");
   }
 
@@ -69,7 +73,7 @@ struct Judge {
     const double slack = 10 * limit + (*right.upper_bound - *right.lower_bound);
     const double along = -c.body_height(n), against = -c.body_height(-n);
     // What is not the best way out is one all the same: the bodies are as deep along it as is said.
-    const bool as_said = !r.signed_distance || along >= *r.signed_distance - 10 * c.answer_tolerance();
+    const bool as_said = !limited || !r.signed_distance || along >= *r.signed_distance - 10 * c.answer_tolerance();
     if (along >= sd - slack && as_said) return;
     if (against >= sd - slack)
       c.find("flipped-normal", "The normal " + text_of(n) + " points from body 1 to body 0; expected is " + text_of(AnyVector(-n)) + ", from body 0 towards body 1.");
@@ -78,11 +82,10 @@ struct Judge {
   }
 
   void witnesses() const {
-    if (!r.witness_a || !r.witness_b) return;
     const Scene& scene = c.recording.scene.scene;
-    if (!c.has_supports || (scene.query == Query::distance && r.intersecting)) return;
+    if (!c.has_supports) return;
     const double slack = 10 * limit;
-    const double out_a = outside(scene, 0, *r.witness_a), out_b = outside(scene, 1, *r.witness_b);
+    const double out_a = r.witness_a ? outside(scene, 0, *r.witness_a) : 0, out_b = r.witness_b ? outside(scene, 1, *r.witness_b) : 0;
     if (out_a > slack || out_b > slack) {
       const bool a = out_a > slack;
       c.find("wrong-witness", std::string("witness_") + (a ? "a " : "b ") + text_of(a ? *r.witness_a : *r.witness_b) + " lies " + text_of(a ? out_a : out_b) + " outside its body. " +
@@ -90,7 +93,7 @@ struct Judge {
                                            : "The usual cause is weights that belong to other vertices, or to the wrong face."));
       return;
     }
-    if (!r.normal || !r.signed_distance) return;
+    if (!r.witness_a || !r.witness_b || !r.normal || !r.signed_distance || (scene.query == Query::distance && r.intersecting)) return;
     const double off = (*r.witness_b - *r.witness_a - *r.signed_distance * *r.normal).norm();
     if (off > slack)
       c.find("wrong-witness", "witness_b - witness_a is " + text_of(AnyVector(*r.witness_b - *r.witness_a)) + ", but signed_distance * normal is " + text_of(AnyVector(*r.signed_distance * *r.normal)) + ": the points and the distance do not belong together.");
@@ -109,7 +112,7 @@ void check_result(CheckContext& c, double best_plane) {
   // What says itself that it is not exact is judged by its own bounds.
   if (limited && recording.result.lower_bound && recording.result.upper_bound) limit += *recording.result.upper_bound - *recording.result.lower_bound;
   if (!recording.events.empty()) c.step = recording.events.size() - 1;
-  const Judge judge{c, recording.result, right, limit, portal};
+  const Judge judge{c, recording.result, right, limit, portal, limited};
   judge.answer(best_plane);
   judge.distance();
   judge.bounds();

@@ -88,7 +88,7 @@ void TraceCheck::given(int number, bool is_new, const char* what) {
 bool TraceCheck::belong_together(const AnyVector& a, const AnyVector& b, const AnyVector& w) {
   if (!a.allFinite() || !b.allFinite() || !w.allFinite()) return false;
   const AnyVector difference = a - b;
-  if ((difference - w).norm() <= c_.tolerance + far_out(a, b)) return true;
+  if ((difference - w).stableNorm() <= c_.tolerance + far_out(a, b)) return true;
   c_.find("wrong-support", "w is " + text_of(w) + ", but a - b is " + text_of(difference) + ". The usual causes are a + b, and b asked for along d instead of -d.");
   return false;
 }
@@ -96,7 +96,7 @@ bool TraceCheck::belong_together(const AnyVector& a, const AnyVector& b, const A
 /// World coordinates far from the origin have lost digits.
 double TraceCheck::far_out(const AnyVector& a, const AnyVector& b) const {
   const bool single = c_.recording.settings.scalar == Scalar::float_precision;
-  return (single ? 1e-6 : 1e-14) * (a.norm() + b.norm());
+  return (single ? 1e-6 : 1e-14) * (a.stableNorm() + b.stableNorm());
 }
 
 void TraceCheck::judge(const recorded::VertexKept& e) { belong_together(e.a, e.b, e.w); }

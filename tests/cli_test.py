@@ -224,6 +224,11 @@ class Program(unittest.TestCase):
         run("dump", self.scene, "-o", a)
         run("dump", self.scene, "--scalar", "float", "-o", b)
         self.assertEqual(run("verify", a, b).returncode, 0)
+        missing = run("verify", a, self.path / "missing", b)
+        self.assertEqual((missing.returncode, missing.stdout.count("same")), (2, 2))
+        self.assertIn("missing", missing.stderr)
+        cut = subprocess.run(f"{PROGRAM} dump {self.scene} | head -c 10", shell=True, capture_output=True, text=True)
+        self.assertEqual((len(cut.stdout), cut.stderr), (10, ""))
         self.assertEqual(run("diff", a, a).returncode, 0)
         result = run("diff", a, b)
         self.assertEqual(result.returncode, 1)
@@ -250,6 +255,11 @@ class Program(unittest.TestCase):
             self.assertEqual([a["id"] for a in answers if "error" not in a], [i for i in range(20) if i not in (3, 7, 11)])
         self.assertEqual(run("query", self.write("good.jsonl", lines[0] + "\n")).returncode, 0)
         # Ids come back as they were, whatever they are.
+        broken = '{"id": {"n": 5}, "format": "gjk-scene", "x": -1e400'
+        for line in (broken + "}", broken, broken + ', "x": 1, "x": 1}'):
+            path = self.path / "broken.jsonl"
+            path.write_text(line + "\n")
+            self.assertEqual(json.loads(run("query", path).stdout)["id"], {"n": 5})
         ids = ["12345678901234567890123", "-0.10000000000000000000001", '{"a": [1, {"id": 2.50}], "b, }": "\\"]"}', "[1e2, null]", '"\\u00e9"', "true", "null"]
         lines = [json.dumps(CUBES)[:-1] + ', "id" : ' + i + broken for i in ids for broken in ("}", ', "dimensoin": 1}')]
         answers = run("query", self.write("ids.jsonl", "\n".join(lines))).stdout.splitlines()

@@ -44,6 +44,7 @@ BUGS = [
                                              ("or len(simplex) == dimension + 1", "")], "simplex-too-large"),
     ("newest vertex lost", "2d-corner-to-edge", [(KEPT, "simplex, v, weights = (kept, nearer, weights_now) if len(simplex) < 2 else (simplex, v, weights)")], "any:wrong-region"),
     ("only the newest kept", "box-box-apart", [(KEPT, "simplex, v, weights = [w], w.w, [1.0]"), (GUARD, "")], "wrong-region"),
+    ("only the newest kept, round and flat", "2d-ellipses-apart", [(KEPT, "simplex, v, weights = [w], w.w, [1.0]"), (GUARD, "")], "wrong-region"),
     ("oldest vertex dropped", "box-box-deep", [(KEPT, "simplex = kept[:-1] or kept; v = nearest(simplex)[1]; weights = nearest(simplex)[2]"), (GUARD, "")], "any:wrong-region"),
     ("edge kept for the triangle", "obb-shallow", [(KEPT, "simplex = kept[:2]; v = nearest(simplex)[1]; weights = nearest(simplex)[2]"), (GUARD, "")], "any:wrong-region"),
     ("no stopping test", "box-box-apart", [(STOP, ""), (GUARD, "")], "any:no-progress"),
@@ -114,6 +115,11 @@ EDITS = [
     ("box-box-apart", lambda r: r["result"].update(signed_distance=0.1), "any:wrong-distance"),
     ("box-box-apart", lambda r: r["result"].update(witness_a=[0, 0, 9]), "wrong-witness"),
     ("pair-hull-hull", lambda r: r["events"].__delitem__(slice(3, len(r["events"]) - 1)), "stopped-early"),
+    ("2d-deep", lambda r: at(r, "simplex_reduced").update(region=[], barycentric=[]), "wrong-region"),
+    # Numbers no scene has must not make everything else look small.
+    ("two-unit-cubes", lambda r: at(r, "support_queried", 1)["w"].__setitem__(0, 1e155), "wrong-support"),
+    ("two-unit-cubes", lambda r: at(r, "support_queried", 1)["b"].__setitem__(2, 1e155), "wrong-support"),
+    ("box-box-apart", lambda r: r["result"].update(witness_a=[0, 0, 9], witness_b=None), "wrong-witness"),
     ("stacked-cubes", lambda r: at(r, "polytope_seeded")["faces"][1].update(vertices=[at(r, "polytope_seeded")["faces"][1]["vertices"][0]] * 3), "zero-area-face"),
 ]
 
@@ -212,13 +218,26 @@ class Solver(unittest.TestCase):
         """A right answer at once has no findings; vertices nobody gave out are named."""
         result = '{"type":"result","intersecting":true}'
         simplex, support, box = '{"type":"simplex","vertices":[7]}', '{"type":"support","direction":[1,0,0]}', "box-box-deep"
+        far, apart = '{"type":"support","direction":[0,0,1]}', '{"type":"result","intersecting":false}'
+        known, no_point = '{"type":"simplex","vertices":[0],"closest":[NaN,0,0]}', '{"type":"face","vertices":[0,0,0],"distance":"x"}'
         for lines, code in [((result,), None), ((simplex, result), "unknown-vertex"),
+                            ((support, simplex, support, simplex, support, result), "unknown-vertex"),
+                            ((support, known, result), "wrong-closest"), ((support, no_point, result), "bad-message"),
+                            ((support, '{"type":"result","intersecting":true,"signed_distance":NaN}'), "bad-message"),
+                            ((support, '{"type":"result","intersecting":true,"normal":[NaN,0,0]}'), "bad-message"),
+                            ((far, apart), "unjustified-separation"),
                             ((support, '{"type":"face","vertices":[0,1,2],"normal":[1,0,0],"distance":1}', result), "unknown-vertex"),
                             ((support, '{"type":"face","vertices":[0],"normal":[1,0,0],"distance":1}', result), "bad-message"),
                             ((support, '{"type":"polytope","faces":[[0,0]]}', result), "bad-message")]:
             findings = self.run_kit(box, "cat >/dev/null & printf '%s\\n' " + " ".join(f"'{line}'" for line in lines))
             with self.subTest(lines):
                 self.assertEqual([f["code"] for f in findings][:1], [code] if code else [])
+
+    def test_a_right_guess_is_no_proof(self):
+        support, apart = '{"type":"support","direction":[0,0,1]}', '{"type":"result","intersecting":false}'
+        findings = self.run_kit("box-box-apart", f"cat >/dev/null & printf '%s\\n' '{support}' '{apart}'")
+        self.assertEqual([f["code"] for f in findings], ["unjustified-separation"])
+        self.assertEqual(self.run_kit("box-box-apart", f"cat >/dev/null & printf '%s\\n' '{apart}'"), [])
 
     def test_edited_recordings_are_named(self):
         for scene, edit, code in EDITS:

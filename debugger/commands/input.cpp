@@ -43,6 +43,11 @@ fs::path scene_path(const std::string& argument) {
   return fs::exists(in_gallery, ignored) ? in_gallery : fs::path(argument);
 }
 
+std::string one_line(std::string text) {
+  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
+  return text;
+}
+
 CLI::Validator named() {
   return CLI::Validator([](std::string& text) { return text.empty() ? std::string("must name something, not \"\"") : std::string(); }, "");
 }

@@ -26,6 +26,9 @@ std::filesystem::path program_path();
 /// will say that it is not there).
 std::filesystem::path scene_path(const std::string& argument);
 
+/// What is printed of an error: one line, whatever names the input brought along.
+std::string one_line(std::string text);
+
 /// Of options that name a file, a folder or a program: not empty.
 CLI::Validator named();
 /// Of options that are a number: from `low` to `high`, and no NaN.

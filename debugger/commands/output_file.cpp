@@ -36,16 +36,19 @@ OutputFile::~OutputFile() {
   if (!temporary_.empty()) std::filesystem::remove(temporary_, ignored);
 }
 
+/// A reader that has had enough, as in "gjkdbg dump … | head", is no error.
+bool OutputFile::unwanted() const { return file_ == stdout && errno == EPIPE; }
+
 void OutputFile::fail() {
   throw Error("cannot-write", std::string("cannot be written: ") + std::strerror(errno), target_.empty() ? "standard output" : target_.string());
 }
 
 void OutputFile::write(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) fail();
+  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size() && !unwanted()) fail();
 }
 
 void OutputFile::commit() {
-  if (std::fflush(file_) != 0) fail();
+  if (std::fflush(file_) != 0 && !unwanted()) fail();
   if (file_ == stdout) return;
   std::FILE* const file = file_;
   file_ = nullptr;

@@ -22,6 +22,7 @@ class OutputFile {
 
  private:
   [[noreturn]] void fail();
+  bool unwanted() const;
   std::filesystem::path target_, temporary_;
   std::FILE* file_ = nullptr;
 };

@@ -31,8 +31,19 @@ struct Answers {
   std::size_t errors = 0, missed = 0;
 };
 
+/// Of a line that is no JSON as a whole: the first member "id" it has, if that is a value by itself.
+std::string broken_id(const std::string& line) {
+  try {
+    const std::string id = member_text(line, "id");
+    return id.empty() || Json::accept(id) ? id : std::string();
+  } catch (const Json::exception&) {
+    return {};
+  }
+}
+
 /// The id of a line, which may be broken elsewhere; empty when it has none. What a double cannot hold is taken from the line.
 std::string id_of(const Json& json, const std::string& line) {
+  if (json.is_null()) return broken_id(line);
   if (!json.is_object()) return {};
   const auto id = json.find("id");
   if (id == json.end()) return {};

@@ -20,13 +20,18 @@ void print(const Difference& d, const std::string& left_name, const std::string&
 int run_verify(const std::vector<std::string>& files) {
   int status = exit_done;
   for (const std::string& file : files) {
-    const Recording recording = read_recording(file);
-    if (const auto difference = verify(recording)) {
-      std::cout << file << ": differs at ";
-      print(*difference, "recorded", "now");
-      status = exit_difference;
-    } else {
-      std::cout << file << ": same, " << recording.events.size() << " events\n";
+    try {
+      const Recording recording = read_recording(file);
+      if (const auto difference = verify(recording)) {
+        std::cout << file << ": differs at ";
+        print(*difference, "recorded", "now");
+        if (status == exit_done) status = exit_difference;
+      } else {
+        std::cout << file << ": same, " << recording.events.size() << " events\n";
+      }
+    } catch (const Error& e) {
+      std::cerr << "gjkdbg: " << one_line(e.line()) << "\n";
+      status = exit_bad_input;
     }
   }
   return status;

@@ -12,7 +12,9 @@ namespace {
 
 const double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Numbers that JSON has no word for (NaN, Infinity, as Python and others write them) become null, outside strings.
+constexpr const char* not_finite = "not finite";  ///< what a message has in place of a number that is none
+
+/// Numbers that JSON has no word for (NaN, Infinity, as Python and others write them) become a text, outside strings.
 std::string without_nan(const std::string& line) {
   std::string out;
   bool in_string = false;
@@ -21,7 +23,7 @@ std::string without_nan(const std::string& line) {
     bool replaced = false;
     for (const std::string word : {"-Infinity", "Infinity", "-NaN", "NaN", "-nan", "nan", "-inf", "inf"})
       if (!in_string && line.compare(i, word.size(), word) == 0) {
-        out += "null";
+        out += std::string("\"") + not_finite + "\"";
         i += word.size() - 1;
         replaced = true;
         break;
@@ -31,11 +33,11 @@ std::string without_nan(const std::string& line) {
   return out;
 }
 
-/// A vector whose components may be null (not finite).
+/// A vector whose components may be null or otherwise not finite.
 AnyVector loose_vector(const Json& json, const Place& place, int dimension) {
   if (!json.is_array() || json.size() != static_cast<std::size_t>(dimension)) return read_vector(json, place, dimension);
   AnyVector v(dimension);
-  for (std::size_t i = 0; i < json.size(); ++i) v[static_cast<Eigen::Index>(i)] = json[i].is_null() ? nan : read_number(json[i], Place(place, i));
+  for (std::size_t i = 0; i < json.size(); ++i) v[static_cast<Eigen::Index>(i)] = json[i].is_null() || json[i] == not_finite ? nan : read_number(json[i], Place(place, i));
   return v;
 }
 
@@ -122,7 +124,6 @@ void SolverRecorder::simplex(const Json& json) {
   for (const int v : simplex_)
     if (std::find(e.before.begin(), e.before.end(), v) == e.before.end()) e.before.push_back(v);
   if (const auto closest = json.find("closest"); closest != json.end() && !closest->is_null()) e.closest = loose_vector(*closest, Place(root, "closest"), dimension_);
-  if (e.closest.size() > 0 && !e.closest.allFinite()) e.closest = AnyVector();
   if (const auto d = json.find("direction"); d != json.end() && !d->is_null()) loose_vector(*d, Place(root, "direction"), dimension_);
   e.lower_bound = e.upper_bound = nan;
   simplex_ = e.region;
@@ -232,10 +233,9 @@ void SolverRecorder::face(const Json& json) {
   recorded::Face face = found != faces_.end() ? found->second : make_face(vertices);
   recorded::FaceChosen e{epa_iteration_, face.face, face.normal, face.distance};
   if (const auto n = json.find("normal"); n != json.end() && !n->is_null()) {
-    const AnyVector normal = loose_vector(*n, Place(root, "normal"), dimension_);
-    if (normal.allFinite()) e.normal = normal;
+    e.normal = read_vector(*n, Place(root, "normal"), dimension_);
   }
-  if (const auto d = json.find("distance"); d != json.end() && d->is_number()) e.distance = read_number(*d, Place(root, "distance"));
+  if (const auto d = json.find("distance"); d != json.end() && !d->is_null()) e.distance = read_number(*d, Place(root, "distance"));
   chosen_ = face;
   recording_.events.push_back(std::move(e));
 }

@@ -101,6 +101,39 @@ TEST(EdgeCases, MprNamesADirectionForOnePointTwice) {
   EXPECT_DOUBLE_EQ(r.normal->norm(), 1);
 }
 
+/// A tolerance is for distances; yes and no are proven.
+TEST(EdgeCases, ACoarseToleranceDoesNotDecideYesOrNo) {
+  RandomScenes random(31);
+  int overlaps = 0;
+  for (int k = 0; k < 300; ++k) {
+    Scene scene = scene_of(R"("dimension": 2, "query": "penetration", "bodies": [{"shape": {"type": "ellipse", "radii": [1, 0.3]}}, {"shape": {"type": "circle", "radius": 1}}])");
+    const double angle = random.uniform(0, 6.28);
+    const AnyVector away = Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    scene.bodies[1].pose.position = 3 * away;
+    const Result apart = run(scene, {});
+    scene.bodies[1].pose.position -= (*apart.signed_distance + random.uniform(-1e-3, 1e-3)) * *apart.normal;
+    const double truth = *run(scene, {}).signed_distance;
+    if (std::abs(truth) < 1e-8) continue;
+    overlaps += truth < 0;
+    scene.query = Query::intersect;
+    for (const double tolerance : {1e-4, 1e-2, 0.9}) {
+      Method m;
+      m.tolerance = tolerance;
+      EXPECT_EQ(run(scene, m).intersecting, truth < 0) << truth << " at " << tolerance;
+    }
+  }
+  EXPECT_GT(overlaps, 50);
+}
+
+TEST(EdgeCases, ASimulationNeedsADepth) {
+  Scene scene = scene_of(R"("dimension": 3, "query": "simulate", "steps": 3, "bodies": [{"shape": {"type": "box", "half_extents": [1, 1, 1]}}, {"shape": {"type": "box", "half_extents": [1, 1, 1]}}])");
+  Method m;
+  m.penetration = Penetration::none;
+  EXPECT_THROW(resolve_settings(m, scene), Error);
+  m.penetration = Penetration::mpr;
+  EXPECT_NO_THROW(resolve_settings(m, scene));
+}
+
 TEST(EdgeCases, TwoBodiesAtRestAreAskedWhetherTheyOverlap) {
   for (const MethodName name : {MethodName::conservative_advancement, MethodName::ray_cast, MethodName::root_finding})
     for (const double x : {0.5, 2.5}) {

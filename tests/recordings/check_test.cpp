@@ -121,6 +121,50 @@ std::string first(const Recording& recording) {
 }
 std::string named(std::size_t step, const std::string& code) { return std::to_string(step) + " " + code; }
 
+/// A body may lie well inside the other: then the middle of what would separate them is in neither.
+TEST(Check, DistanceQueriesOfOverlapsNameAPointOfBothBodies) {
+  RandomScenes random(22);
+  std::vector<int> used(method_names.size());
+  const int count = std::getenv("GJKDBG_PAIRS") ? 100 : 400;
+  for (int k = 0; k < count; ++k) {
+    SceneFile file;
+    file.scene = random.scene(1 + k % 3, static_cast<Family>(k / 3 % family_count), true);
+    file.scene.query = Query::distance;
+    file.scene.bodies[1].pose.position = file.scene.bodies[0].pose.position;
+    for (const MethodName name : {MethodName::gjk, MethodName::sat, MethodName::mpr, MethodName::closed_form, MethodName::fastest}) {
+      change_name(file.method, name);
+      try {
+        resolve_settings(file.method, file.scene);
+      } catch (const Error&) {
+        continue;  // no method for these bodies
+      }
+      ++used[static_cast<std::size_t>(name)];
+      EXPECT_EQ(text(check(record(file))), "") << "scene " << k << " by " << method_names[static_cast<std::size_t>(name)];
+    }
+    if (testing::Test::HasFailure()) break;
+  }
+  for (const MethodName name : {MethodName::sat, MethodName::mpr, MethodName::closed_form}) EXPECT_GT(used[static_cast<std::size_t>(name)], count / 20) << method_names[static_cast<std::size_t>(name)];
+  SceneFile nested = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "distance", "bodies": [
+    {"shape": {"type": "box", "half_extents": [2, 2, 2]}}, {"shape": {"type": "box", "half_extents": [0.1, 0.1, 0.1]}, "pose": {"position": [1, 0, 0]}}]})", {});
+  change_name(nested.method, MethodName::sat);
+  Recording r = record(nested);
+  EXPECT_EQ(first(r), "none");
+  r.result.witness_b = AnyVector(Eigen::Vector3d(1.45, 0.1, 0.1));
+  EXPECT_EQ(first(r), named(r.events.size() - 1, "wrong-witness"));
+}
+
+TEST(Check, KnowsWhoseVerticesMprAndGjkAfterItHave) {
+  SceneFile file = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "penetration", "bodies": [
+    {"shape": {"type": "sphere", "radius": 1}}, {"shape": {"type": "sphere", "radius": 1}, "pose": {"position": [1.9, 0, 0]}}]})", {});
+  change_name(file.method, MethodName::mpr);
+  for (const Penetration penetration : {Penetration::epa, Penetration::mpr, Penetration::none}) {
+    file.method.penetration = penetration;
+    const Recording r = record(file);
+    EXPECT_EQ(text(check(r)), "");
+    EXPECT_GE(*r.result.upper_bound, -0.1);
+  }
+}
+
 TEST(Check, NamesAPhaseThatDoesNotEndOnce) {
   const Recording right = recorded_scene("box-box-deep");
   const std::size_t gjk = step_of<recorded::GjkEnded>(right), epa = step_of<recorded::EpaEnded>(right);
