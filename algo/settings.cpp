@@ -123,7 +123,7 @@ void check_start(const Settings& s, const Scene& scene) {
 }
 
 void check_numbers(const Settings& s, int dimension) {
-  if (!(s.tolerance > 0 && s.tolerance < 1)) throw Error("out-of-range", "tolerance must lie between 0 and 1", "/method/tolerance");
+  if (!(s.tolerance > 0 && s.tolerance < 1)) throw Error("out-of-range", "tolerance must be greater than 0 and less than 1", "/method/tolerance");
   if (s.max_iterations < 1 || s.max_iterations > 1000000)
     throw Error("out-of-range", "max_iterations must lie between 1 and 1000000", "/method/max_iterations");
   if (!s.initial_direction) return;

@@ -92,7 +92,10 @@ bool EpaCheck::check_normal(int number, const AnyVector& given) {
 
 /// The plane that is given for a face holds its vertices.
 void EpaCheck::check_plane(int number, const AnyVector& normal, double distance) {
-  if (!normal.allFinite() || normal.isZero(0) || !std::isfinite(distance)) return;
+  if (!normal.allFinite() || !std::isfinite(distance)) return;
+  if (!c_.inferred && std::abs(normal.norm() - 1) > 1e-4)  // a solver may leave its normals as long as they come
+    c_.find("wrong-face", "The normal " + text_of(normal) + " of " + face_name(number) + " has length " + text_of(normal.norm()) + " instead of 1. Expected is " + text_of(faces_[number].normal) + ".");
+  if (normal.isZero(0)) return;
   const AnyVector n = normal.stableNormalized();
   for (const int v : faces_[number].vertices) {
     const AnyVector* w = c_.vertex(v);

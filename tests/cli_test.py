@@ -219,6 +219,15 @@ class Program(unittest.TestCase):
                 result = subprocess.run([PROGRAM, *map(str, arguments)], stdout=full, stderr=subprocess.PIPE, text=True)
             self.refused(result, "standard output", "cannot be written")
 
+    def test_output_goes_where_a_link_points_and_stays_as_readable(self):
+        target, link = self.path / "target.json", self.path / "link.json"
+        target.write_text("old")
+        target.chmod(0o600)
+        link.symlink_to(target)
+        self.assertEqual(run("dump", self.scene, "-o", link).returncode, 0)
+        self.assertTrue(link.is_symlink())
+        self.assertEqual((json.loads(target.read_text())["format"], target.stat().st_mode & 0o777), ("gjk-recording", 0o600))
+
     def test_verify_and_diff(self):
         a, b = self.path / "a.json", self.path / "b.json"
         run("dump", self.scene, "-o", a)

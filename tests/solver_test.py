@@ -120,6 +120,8 @@ EDITS = [
     ("two-unit-cubes", lambda r: at(r, "support_queried", 1)["w"].__setitem__(0, 1e155), "wrong-support"),
     ("two-unit-cubes", lambda r: at(r, "support_queried", 1)["b"].__setitem__(2, 1e155), "wrong-support"),
     ("box-box-apart", lambda r: r["result"].update(witness_a=[0, 0, 9], witness_b=None), "wrong-witness"),
+    ("box-box-deep", lambda r: at(r, "polytope_seeded")["faces"][0].update(normal=[2 * x for x in at(r, "polytope_seeded")["faces"][0]["normal"]]), "wrong-face"),
+    ("box-box-deep", lambda r: at(r, "polytope_grown")["added"][0].update(normal=[0, 0, 0]), "wrong-face"),
     ("stacked-cubes", lambda r: at(r, "polytope_seeded")["faces"][1].update(vertices=[at(r, "polytope_seeded")["faces"][1]["vertices"][0]] * 3), "zero-area-face"),
 ]
 

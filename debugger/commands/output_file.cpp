@@ -15,8 +15,8 @@ OutputFile::OutputFile(const std::string& path) {
     file_ = stdout;
     return;
   }
-  target_ = path;
   std::error_code ignored;
+  target_ = std::filesystem::is_symlink(path, ignored) ? std::filesystem::weakly_canonical(path, ignored) : std::filesystem::path(path);
   // A device or a pipe is written in place: nothing can take its place.
   const bool special = std::filesystem::exists(target_, ignored) && !std::filesystem::is_regular_file(target_, ignored);
   if (!special) {
@@ -55,6 +55,8 @@ void OutputFile::commit() {
   if (std::fclose(file) != 0) fail();
   if (temporary_.empty()) return;
   std::error_code error;
+  // Who may read what was there may read what takes its place.
+  if (const auto before = std::filesystem::status(target_, error); std::filesystem::exists(before)) std::filesystem::permissions(temporary_, before.permissions(), error);
   std::filesystem::rename(temporary_, target_, error);
   if (error) {
     errno = error.value();

@@ -28,7 +28,7 @@ constexpr std::size_t block_lines = 4096;
 /// What a part of a block came to.
 struct Answers {
   std::string text;
-  std::size_t errors = 0, missed = 0;
+  std::size_t errors = 0, missed = 0, first_missed = 0;  ///< the last: a line
 };
 
 /// Of a line that is no JSON as a whole: the first member "id" it has, if that is a value by itself.
@@ -70,6 +70,7 @@ class Queries {
       for (const Answers& part : answer_block(lines, count)) {
         out.write(part.text);
         errors_ += part.errors, missed_ += part.missed;
+        if (first_missed_ == 0) first_missed_ = part.first_missed;
       }
       line_ += count;
       progress(false);
@@ -110,7 +111,8 @@ class Queries {
       const Result result = solve(scene.scene, flags.resolve(scene, ""));
       append_result(answers.text, result, scene.scene.query, id_of(json, line));
       answers.text += '\n';
-      if (scene.expect && !missed_expectations(scene, result).empty()) ++answers.missed;
+      if (!scene.expect || missed_expectations(scene, result).empty()) return;
+      if (answers.missed++ == 0) answers.first_missed = number;
     } catch (const Error& e) {
       ++answers.errors;
       append_error(answers.text, id_of(json, line), number, e);
@@ -142,11 +144,12 @@ class Queries {
   }
 
   std::string summary() const {
-    return input + ": " + std::to_string(line_) + " lines, " + std::to_string(errors_) + " bad, " + std::to_string(missed_) + " not as expected";
+    return input + ": " + std::to_string(line_) + " lines, " + std::to_string(errors_) + " bad, " + std::to_string(missed_) + " not as expected" +
+           (missed_ > 0 ? ", the first in line " + std::to_string(first_missed_) : "");
   }
 
   std::filesystem::path directory_;
-  std::size_t line_ = 0, errors_ = 0, missed_ = 0;
+  std::size_t line_ = 0, errors_ = 0, missed_ = 0, first_missed_ = 0;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now(), shown_{};
 };
 
