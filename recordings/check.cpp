@@ -39,7 +39,7 @@ CheckContext::CheckContext(const Recording& r) : recording(r), dimension(r.scene
   const auto& bodies = r.scene.scene.bodies;
   const bool moves = r.scene.scene.query == Query::cast || r.scene.scene.query == Query::simulate;
   has_supports = !moves && std::none_of(bodies.begin(), bodies.end(), [](const Body& b) { return std::holds_alternative<Mesh>(b.shape.geometry); });
-  double reach = 0;  // no w is longer; what is, is wrong, and must not loosen the tolerances
+  double reach = 0;  // about as long as w can be: one of 1e155 is wrong, and must not loosen the tolerances
   for (const Body& b : bodies) size = std::max(size, size_of(b.shape)), reach += 2 * size_of(b.shape);
   reach += moves || bodies.size() < 2 ? std::numeric_limits<double>::max() : (bodies[1].pose.position - bodies[0].pose.position).stableNorm();
   for (const Event& event : r.events)

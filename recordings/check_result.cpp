@@ -112,7 +112,7 @@ void check_result(CheckContext& c, double best_plane) {
   // What says itself that it is not exact is judged by its own bounds.
   if (limited && recording.result.lower_bound && recording.result.upper_bound) limit += *recording.result.upper_bound - *recording.result.lower_bound;
   if (!recording.events.empty()) c.step = recording.events.size() - 1;
-  const Judge judge{c, recording.result, right, limit, portal, limited};
+  const Judge judge{c, recording.result, right, limit, portal && !c.inferred, limited};  // a solver may answer a scene of MPR by other means
   judge.answer(best_plane);
   judge.distance();
   judge.bounds();

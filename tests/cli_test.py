@@ -227,6 +227,7 @@ class Program(unittest.TestCase):
         self.assertEqual(run("dump", self.scene, "-o", link).returncode, 0)
         self.assertTrue(link.is_symlink())
         self.assertEqual((json.loads(target.read_text())["format"], target.stat().st_mode & 0o777), ("gjk-recording", 0o600))
+        self.assertEqual(json.loads(run("dump", self.scene, "-o", "/dev/stdout").stdout)["format"], "gjk-recording")  # a link to a pipe
 
     def test_verify_and_diff(self):
         a, b = self.path / "a.json", self.path / "b.json"

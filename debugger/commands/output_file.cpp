@@ -15,11 +15,14 @@ OutputFile::OutputFile(const std::string& path) {
     file_ = stdout;
     return;
   }
+  target_ = path;
   std::error_code ignored;
-  target_ = std::filesystem::is_symlink(path, ignored) ? std::filesystem::weakly_canonical(path, ignored) : std::filesystem::path(path);
   // A device or a pipe is written in place: nothing can take its place.
   const bool special = std::filesystem::exists(target_, ignored) && !std::filesystem::is_regular_file(target_, ignored);
   if (!special) {
+    // A link stays: what it points to is what gets replaced.
+    std::error_code broken;
+    if (const auto real = std::filesystem::canonical(target_, broken); !broken) target_ = real;
     temporary_ = target_;
     temporary_ += ".part" + std::to_string(getpid());
   }
