@@ -32,7 +32,12 @@ GLFWwindow* make_window(const WindowOptions& options) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-  GLFWwindow* window = glfwCreateWindow(options.width > 0 ? options.width : options.preferences.width, options.height > 0 ? options.height : options.preferences.height, "gjkdbg", nullptr, nullptr);
+  int width = options.preferences.width, height = options.preferences.height;
+  // A size kept from another display may be more than this one has. A size that was asked for is taken at its word.
+  int x = 0, y = 0, free_width = 0, free_height = 0;
+  if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) glfwGetMonitorWorkarea(monitor, &x, &y, &free_width, &free_height);
+  if (free_width > 0 && free_height > 0) width = std::min(width, free_width), height = std::min(height, free_height);
+  GLFWwindow* window = glfwCreateWindow(options.width > 0 ? options.width : width, options.height > 0 ? options.height : height, "gjkdbg", nullptr, nullptr);
   if (!window) throw Error("no-display", "no window with OpenGL 3.3 can be opened: " + Glfw::last_error());
   glfwMakeContextCurrent(window);
   glfwSwapInterval(1);
