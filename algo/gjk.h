@@ -7,7 +7,7 @@
 //   stop when the bounds meet; else add w, cut the simplex down to the feature nearest the origin
 // Deviations: |v| must fall in every step; where it does not, the simplex is judged again in twice the precision and,
 // if that does not help, the loop ends as `stalled` with honest bounds. Bounds include the rounding floor.
-// Directions may carry Nesterov's momentum (Montaut et al., section IV): fewer steps where curvature is small.
+// Directions may carry Nesterov's momentum (Montaut et al., section IV): fewer steps where curvature is small; or be Newton's (algo/newton_direction.h).
 // The sub-algorithm is a policy: ClosestFeature<D, S> closest(const V* w, int size), or closest(const V* w, const int* place, int size) with
 // the vertices w[place[0]], w[place[1]], … and places for indices.
 #pragma once
@@ -16,6 +16,7 @@
 #include <span>
 #include <utility>
 
+#include "algo/newton_direction.h"
 #include "algo/settings.h"
 #include "algo/signed_volumes.h"
 #include "algo/simplex.h"
@@ -36,8 +37,8 @@ struct GjkOptions {
   S tolerance = S(1e-12);  ///< relative gap of the bounds at which the loop ends
   int max_iterations = 512;
   Vector<D, S> direction = Vector<D, S>::Unit(0);  ///< first search direction, not zero
-  bool accelerated = false;  ///< Nesterov momentum on the directions, until it no longer helps
-  bool normalised = false;   ///< of the momentum: for polytopes
+  bool accelerated = false;  ///< directions other than -v, until they no longer help
+  bool normalised = false;   ///< for polytopes: of the momentum; Newton's method has no use there
   Acceleration acceleration = Acceleration::nesterov;
   Stopping stopping = Stopping::bounds;
   std::span<const SupportPoint<D, S>> kept{};  ///< the simplex to begin with instead of the direction's support; at most D + 1
@@ -76,9 +77,11 @@ class Gjk {
     if (!options_.kept.empty()) last_ = momentum_ = result_.v;
     while (!ended()) {
       ++result_.iterations;
-      const V d = accelerating_ ? accelerated_direction() : V(-result_.v);
-      const Point point = query(d, accelerating_ ? d.norm() : result_.distance);
-      if (accelerating_) {
+      V d = -result_.v;
+      S length = result_.distance;
+      const bool led = options_.accelerated && lead(d, length);
+      const Point point = query(d, length);
+      if (led) {
         if (options_.goal == GjkGoal::intersect && result_.lower_bound > difference_.radius()) return finish(GjkStatus::separated);
         if (brings_nothing(point)) {
           accelerating_ = false;
@@ -87,7 +90,7 @@ class Gjk {
       } else if (proven(point)) {
         break;
       }
-      last_ = point.w;
+      if (options_.accelerated) last_ = point.w;
       result_.simplex.add(point);
       if (!reduce() && !reduce_again()) return finish(GjkStatus::stalled);
     }
@@ -103,12 +106,13 @@ class Gjk {
       trace_(SupportQueried<V, Viewed>{result_.iterations, Phase::gjk, d, point.vertex, point.a, point.b, point.w});
     plane_ = -d.dot(point.w) / length;
     result_.lower_bound = std::max(result_.lower_bound, plane_ - floor_);
+    if (options_.accelerated) newton_.take(d, length, point);
     return point;
   }
 
   void add(const V& d, S length) {
     const Point point = query(d, length);
-    last_ = point.w, momentum_ = -d / length * point.w.norm();
+    if (options_.accelerated) last_ = point.w, momentum_ = -d / length * point.w.norm();
     result_.simplex.add(point);
   }
 
@@ -137,6 +141,29 @@ class Gjk {
     momentum_ = m * momentum_ + (1 - m) * result_.v;
     if (momentum_.isZero(0)) accelerating_ = false, momentum_ = result_.v;
     return -momentum_;
+  }
+
+  /// A direction other than -v, and its length; false: none is wanted. Not in the loop's own code, most of whose runs have no use for it.
+  [[gnu::noinline]] bool lead(V& d, S& length) {
+    if (options_.acceleration == Acceleration::newton) return !options_.normalised && newton(d, length);
+    if (!accelerating_) return false;
+    d = accelerated_direction(), length = d.norm();
+    return true;
+  }
+
+  /// Newton's direction; not where the last one left more than a quarter of the gap open, nor where the bounds meet or -v is as good, for in the end the
+  /// plane across v is wanted (see `proven`). Before any plane is known as far out as a quarter of |v|, that is taken for the distance.
+  bool newton(V& d, S& length) {
+    const S plane = result_.lower_bound + floor_, gap = result_.distance - plane;
+    const bool misled = std::exchange(newton_led_, false) && gap > gap_ / 4;
+    gap_ = gap;
+    if (misled || gap <= options_.tolerance * result_.distance + floor_ || !std::isfinite(gap)) return false;  // infinite: nothing was asked yet
+    const auto step = newton_.next(std::max(plane, result_.distance / 4));
+    const S towards = -step.x.dot(result_.v);
+    if (step.on_ridge && !(step.plane - plane >= S(0.03) * gap)) return false;  // there already: what the simplex lacks is a vertex of the other side
+    if (!(towards > 0 && towards * towards < (1 - options_.tolerance / 2) * step.length * step.length * v_squared_)) return false;
+    d = step.x, length = step.length;
+    return newton_led_ = true;
   }
 
   /// The Frank-Wolfe gap: a support that is no nearer than v along v adds nothing. From there on the plain direction is right.
@@ -281,7 +308,10 @@ class Gjk {
   S plane_ = 0;
   bool enclosed_ = false;
   int steps_on_the_spot_ = 0;
-  bool accelerating_ = options_.accelerated;
+  bool accelerating_ = options_.accelerated;  ///< the momentum still helps
+  bool newton_led_ = false;                   ///< the last direction was Newton's
+  S gap_ = 0;                                 ///< of the bounds, before it
+  NewtonDirection<Difference> newton_{difference_};
   V momentum_ = V::Zero(), last_ = V::Zero();
   GjkStatus status_ = GjkStatus::converged;
   std::array<int, D + 1> order_{};

@@ -98,6 +98,14 @@ class MinkowskiDifference {
     return point;
   }
 
+  /// How the support moves with d: b's moves with -d, and counts for -b.
+  SupportDerivative<D, S> support_derivative(const V& d, const Point& point) const {
+    SupportDerivative<D, S> sum;
+    a_.add_support_derivative(Matrix<D, S>::Identity(), d, point.a, sum);
+    b_.add_support_derivative(pose_.rotation, -d, point.b - pose_.position, sum);
+    return sum;
+  }
+
   /// A vertex of known points, each in its core's own frame. Does not count as a support.
   Point kept(const V& a, const V& b) {
     Point point;

@@ -13,7 +13,7 @@ namespace gjkdbg {
 enum class MethodName {
   gjk, gjk_boolean, gjk_accelerated, mpr, sat,
   closed_form,  ///< of cores that are points or segments (algo/closed_form.h)
-  fastest,      ///< of a `Method` only: whichever of closed_form, sat and gjk the charts show to be fastest for the scene's bodies
+  fastest,      ///< of a `Method` only: whichever of closed_form, sat, gjk and gjk_accelerated (newton) the charts show to be fastest for the scene's bodies
   conservative_advancement, ray_cast, root_finding  ///< of `cast`; GJK runs inside (algo/cast.h)
 };
 inline constexpr std::array<std::string_view, 10> method_names{"gjk", "gjk-boolean", "gjk-accelerated", "mpr", "sat", "closed-form", "fastest",
@@ -33,9 +33,9 @@ enum class Stopping {
 };
 inline constexpr std::array<std::string_view, 5> stopping_names{"bounds", "van-den-bergen", "bullet", "jolt", "opengjk"};
 
-/// The momentum of gjk-accelerated (Montaut et al. 2024, section IV).
-enum class Acceleration { nesterov, polyak };
-inline constexpr std::array<std::string_view, 2> acceleration_names{"nesterov", "polyak"};
+/// How gjk-accelerated comes to its directions: by momentum (Montaut et al. 2024, section IV), or by Newton's method (algo/newton_direction.h).
+enum class Acceleration { nesterov, polyak, newton };
+inline constexpr std::array<std::string_view, 3> acceleration_names{"nesterov", "polyak", "newton"};
 
 /// Who takes over when the cores overlap.
 enum class Penetration { epa, mpr, none };

@@ -41,6 +41,13 @@ class Convex {
     return std::visit([&](const auto& core) { return core.support(direction); }, core_);
   }
 
+  /// How the support s moves with the direction: see shapes/support_mappings.h.
+  void add_support_derivative(const Matrix<D, S>& axes, const Vector<D, S>& direction, const Vector<D, S>& s, SupportDerivative<D, S>& sum) const {
+    std::visit([&](const auto& core) {
+      if constexpr (requires { core.add_derivative(axes, direction, s, sum); }) core.add_derivative(axes, direction, s, sum);
+    }, core_);
+  }
+
   /// A point inside the core (of a flat one, in its plane), relative to `reference()`.
   Vector<D, S> center() const {
     return std::visit([](const auto& core) { return core.center(); }, core_);
@@ -71,6 +78,12 @@ Vector<D, S> SumCore<D, S>::center() const {
 template <int D, class S>
 Vector<D, S> SumCore<D, S>::support(const Vector<D, S>& d) const {
   return first->support(d) + second->support(d);
+}
+
+template <int D, class S>
+void SumCore<D, S>::add_derivative(const Matrix<D, S>& axes, const Vector<D, S>& d, const Vector<D, S>&, SupportDerivative<D, S>& sum) const {
+  const Vector<D, S> own = axes.transpose() * d;
+  for (const auto& part : {first, second}) part->add_support_derivative(axes, d, axes * part->support(own), sum);
 }
 
 /// From how many vertices a hull has a table of directions. In the first-level cache the table beats a scan from about 50 on (tests/bench/support_bench);

@@ -6,6 +6,9 @@
 //
 // Every mapping has `support(direction)`: direction in the core's frame, of any length; the result lies
 // in the core. Radii are no part of a core. Hulls of many vertices: shapes/hull_core.h.
+//
+// Those of curved cores have `add_derivative(axes, direction, s, sum)`: how the support s moves with the direction, both in a frame in which the core's
+// axes are the columns of `axes`. Other cores' supports do not move but for jumps.
 #pragma once
 
 #include <algorithm>
@@ -66,6 +69,34 @@ struct Around {
   }
 };
 
+/// The derivative of a support mapping: symmetric. Number by number, not a matrix: it is summed up from products of vectors and stays in registers.
+template <int D, class S>
+struct SupportDerivative {
+  S at[D][D] = {};  ///< i <= j
+
+  void add(S factor, const Vector<D, S>& v) {
+    for (int i = 0; i < D; ++i)
+      for (int j = i; j < D; ++j) at[i][j] += factor * v[i] * v[j];
+  }
+  Vector<D, S> operator*(const Vector<D, S>& v) const {
+    Vector<D, S> product;
+    for (int i = 0; i < D; ++i) {
+      product[i] = 0;
+      for (int j = 0; j < D; ++j) product[i] += at[std::min(i, j)][std::max(i, j)] * v[j];
+    }
+    return product;
+  }
+};
+
+/// How a point s of a circle about an axis a moves with the direction d it is farthest along. Its part rho across the axis stays along d's own
+/// part sigma: it turns with it, by the change of sigma that way over |sigma|, and lies |rho| out. With a x rho for the way of turning, that is
+/// (a x rho) (a x rho)^T / (|rho| |sigma|), and |rho| |sigma| = rho . d.
+template <class S>
+void add_circle_derivative(const Vector<3, S>& a, const Vector<3, S>& d, const Vector<3, S>& s, SupportDerivative<3, S>& sum) {
+  const S lever = d.dot(s) - d.dot(a) * s.dot(a);
+  if (lever > 0) sum.add(1 / lever, a.cross(s));
+}
+
 template <class S>
 struct CylinderCore {
   int axis;
@@ -76,6 +107,9 @@ struct CylinderCore {
     Around<S>(d, axis).on_circle(d, radius, s);
     s[axis] = d[axis] < 0 ? -half_height : half_height;
     return s;
+  }
+  void add_derivative(const Matrix<3, S>& axes, const Vector<3, S>& d, const Vector<3, S>& s, SupportDerivative<3, S>& sum) const {
+    add_circle_derivative<S>(axes.col(axis), d, s, sum);
   }
 };
 
@@ -99,6 +133,10 @@ struct ConeCore {
     }
     return s;
   }
+  /// The apex stays.
+  void add_derivative(const Matrix<3, S>& axes, const Vector<3, S>& d, const Vector<3, S>& s, SupportDerivative<3, S>& sum) const {
+    if (!(axes.col(axis).dot(s) > 0)) add_circle_derivative<S>(axes.col(axis), d, s, sum);
+  }
 };
 
 /// The unit ball stretched by the radii: with M = diag(radii), the farthest point along d is M (M d / |M d|).
@@ -111,6 +149,14 @@ struct EllipsoidCore {
     const S length = std::sqrt(stretched.dot(stretched));
     if (!(length > 0)) return Vector<D, S>::Zero();
     return radii.cwiseProduct(stretched) / length;
+  }
+  /// Of s = M^2 d / |M d|: (M^2 - s s^T) / |M d|, and |M d| = d . s.
+  void add_derivative(const Matrix<D, S>& axes, const Vector<D, S>& d, const Vector<D, S>& s, SupportDerivative<D, S>& sum) const {
+    const S height = d.dot(s);
+    if (!(height > 0)) return;
+    const S inverse = 1 / height;
+    sum.add(-inverse, s);
+    for (int i = 0; i < D; ++i) sum.add(inverse * radii[i] * radii[i], axes.col(i));
   }
 };
 
@@ -134,6 +180,7 @@ template <int D, class S>
 struct SumCore {
   std::shared_ptr<const Convex<D, S>> first, second;
   Vector<D, S> support(const Vector<D, S>& d) const;
+  void add_derivative(const Matrix<D, S>& axes, const Vector<D, S>& d, const Vector<D, S>& s, SupportDerivative<D, S>& sum) const;
   Vector<D, S> center() const;
 };
 

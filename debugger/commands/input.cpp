@@ -88,7 +88,7 @@ void MethodFlags::add_to(CLI::App& app) {
   app.add_option("--penetration", penetration_, "what runs when the cores overlap")->check(CLI::IsMember(list(penetration_names)))->group(group);
   app.add_option("--scalar", scalar_, "arithmetic")->check(CLI::IsMember(list(scalar_names)))->group(group);
   app.add_option("--stopping", stopping_, "GJK's stopping rule")->check(CLI::IsMember(list(stopping_names)))->group(group);
-  app.add_option("--acceleration", acceleration_, "momentum of gjk-accelerated")->check(CLI::IsMember(list(acceleration_names)))->group(group);
+  app.add_option("--acceleration", acceleration_, "directions of gjk-accelerated")->check(CLI::IsMember(list(acceleration_names)))->group(group);
   app.add_option("--start", start_, "where GJK begins")->check(CLI::IsMember(list(start_names)))->group(group);
   app.add_option("--start_from,--start-from", start_from_, "recording whose last simplex to begin with")->check(named())->group(group);
   app.add_option("--tolerance", tolerance_, "relative gap of the bounds at which to stop")->check(between(0, 1))->group(group);

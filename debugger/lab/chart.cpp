@@ -168,17 +168,17 @@ void measure_family(const ChartFamily& family, const std::vector<Reference>& ref
   }
 }
 
-/// GJK's iterations by distance, with plain steps and both momenta, stopped where the paper stops: at a duality gap 2 v.(v - w) of 1e-8. With the
+/// GJK's iterations by distance, with plain steps, both momenta and Newton's directions, stopped where the paper stops: at a duality gap 2 v.(v - w) of 1e-8. With the
 /// plane's bound p = v.w / |v| that is |v| - p <= 5e-9 / |v|, relative to |v| a tolerance of 5e-9 / |v|^2.
 std::vector<LadderPoint> ladder(bool quick) {
   struct Rung { double distance; const char *plain, *nesterov; };
   static constexpr Rung rungs[] = {{-0.05, "6 +- 2", "6 +- 3"}, {-0.001, "", ""}, {1e-4, "", ""}, {0.001, "16 +- 5", "7 +- 2"}, {0.1, "", ""}, {1, "4 +- 1", "13 +- 4"}};
   std::vector<LadderPoint> out;
   const auto add = [&](const std::string& shapes, const std::vector<Scene>& scenes, const Rung& rung, bool published) {
-    for (const int momentum : {0, 1, 2}) {
+    for (const int way : {0, 1, 2, 3}) {
       Method method;
-      method.name = momentum == 0 ? MethodName::gjk : MethodName::gjk_accelerated;
-      method.acceleration = momentum == 2 ? Acceleration::polyak : Acceleration::nesterov;
+      method.name = way == 0 ? MethodName::gjk : MethodName::gjk_accelerated;
+      if (way > 0) method.acceleration = static_cast<Acceleration>(way - 1);
       method.penetration = Penetration::none;
       method.tolerance = std::min(0.5, 5e-9 / (rung.distance * rung.distance));
       double sum = 0, squares = 0;
@@ -187,9 +187,9 @@ std::vector<LadderPoint> ladder(bool quick) {
         sum += k, squares += k * k;
       }
       const double n = static_cast<double>(scenes.size()), mean = sum / n;
-      static constexpr const char* names[] = {"plain", "Nesterov", "Polyak"};
-      out.push_back({shapes, names[momentum], rung.distance, mean, std::sqrt(std::max(0.0, squares / n - mean * mean)),
-                     published && momentum < 2 ? (momentum == 0 ? rung.plain : rung.nesterov) : ""});
+      static constexpr const char* names[] = {"plain", "Nesterov", "Polyak", "Newton"};
+      out.push_back({shapes, names[way], rung.distance, mean, std::sqrt(std::max(0.0, squares / n - mean * mean)),
+                     published && way < 2 ? (way == 0 ? rung.plain : rung.nesterov) : ""});
     }
   };
   for (const Rung& rung : rungs) add("ellipsoids", ladder_ellipsoids(quick ? 60 : 400, rung.distance), rung, true);

@@ -25,6 +25,7 @@ std::vector<Variant> variants(bool casts) {
     add("Voronoi regions", MethodName::gjk, ClosestPoint::voronoi);
     add("accelerated", MethodName::gjk_accelerated);
     add("Polyak", MethodName::gjk_accelerated).acceleration = Acceleration::polyak;
+    add("Newton", MethodName::gjk_accelerated).acceleration = Acceleration::newton;
     add("MPR", MethodName::mpr);
     add("SAT", MethodName::sat);
     add("closed form", MethodName::closed_form);

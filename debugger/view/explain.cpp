@@ -128,8 +128,18 @@ struct Explain {
     if (e.phase == Phase::epa) return {"Support beyond the chosen face", where + "If it lies farther out than the face, the polytope grows to it; if not, the face is the boundary."};
     const double along = e.direction.dot(e.w) / e.direction.norm();
     if (frame.simplex.size() <= 1) return {"First support", where + "One corner of the difference is a start: the simplex is this point."};
-    return {"Support towards the origin", where + (along < 0 ? "It lies " + short_number(-along) + " short of the origin along d: all of A - B does, so the bodies are at least that far apart (radii aside)."
+    const auto [title, why] = way(e.direction);
+    return {title, why + where + (along < 0 ? "It lies " + short_number(-along) + " short of the origin along d: all of A - B does, so the bodies are at least that far apart (radii aside)."
                                                               : "It lies at or past the origin along d, so nothing is proven yet.")};
+  }
+
+  /// Of a direction of GJK's, and why it is not -v where it is not.
+  std::pair<const char*, const char*> way(const AnyVector& direction) const {
+    const Settings& s = recording.settings;
+    const bool plain = s.name != MethodName::gjk_accelerated || !frame.closest || (direction.normalized() + frame.closest->normalized()).norm() < 1e-12;
+    if (plain) return {"Support towards the origin", ""};
+    if (s.acceleration == Acceleration::newton) return {"Support along Newton's direction", "The curvature of the bodies at the last supports tells where the plane farthest from the origin should lie: across d, not across v. "};
+    return {"Support along the momentum", "d keeps some of the directions before it, and is not -v alone. "};
   }
 
   Explanation operator()(const recorded::SimplexReduced& e) const {

@@ -212,8 +212,8 @@ bool method(App& app, SceneFile& next) {
   const bool distances = now.name != MethodName::gjk_boolean && now.name != MethodName::closed_form;
   if (distances && choice(theme, "closest point", part, closest_point_names, {0, 1, 2})) next.method.closest_point = static_cast<ClosestPoint>(part), edited = true;
   if (distances && start(theme, now, next)) edited = true;
-  int momentum = static_cast<int>(now.acceleration), rule = static_cast<int>(now.stopping), deep = static_cast<int>(now.penetration);
-  if (now.name == MethodName::gjk_accelerated && choice(theme, "momentum", momentum, acceleration_names, {0, 1})) next.method.acceleration = static_cast<Acceleration>(momentum), edited = true;
+  int directions = static_cast<int>(now.acceleration), rule = static_cast<int>(now.stopping), deep = static_cast<int>(now.penetration);
+  if (now.name == MethodName::gjk_accelerated && choice(theme, "directions", directions, acceleration_names, {0, 1, 2})) next.method.acceleration = static_cast<Acceleration>(directions), edited = true;
   if (distances && choice(theme, "stopping", rule, stopping_names, {0, 1, 2, 3, 4})) next.method.stopping = static_cast<Stopping>(rule), edited = true;
   if (distances && (query == 2 || query == 3) && choice(theme, "when deep", deep, penetration_names, {0, 1, 2})) next.method.penetration = static_cast<Penetration>(deep), edited = true;
   if (choice(theme, "scalar", scalar, scalar_names, {0, 1})) next.method.scalar = static_cast<Scalar>(scalar), next.method.tolerance.reset(), edited = true;

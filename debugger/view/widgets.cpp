@@ -114,7 +114,7 @@ const char* short_kind(const Event& event) {
 
 std::string method_text(const Settings& s) {
   std::string text(method_names[static_cast<std::size_t>(s.name)]);
-  if (s.name == MethodName::gjk_accelerated && s.acceleration == Acceleration::polyak) text += " \xC2\xB7 polyak";
+  if (s.name == MethodName::gjk_accelerated && s.acceleration != Acceleration::nesterov) text += " \xC2\xB7 " + std::string(acceleration_names[static_cast<std::size_t>(s.acceleration)]);
   if (s.closest_point != ClosestPoint::signed_volumes) text += " \xC2\xB7 " + std::string(closest_point_names[static_cast<std::size_t>(s.closest_point)]);
   if (s.stopping != Stopping::bounds) text += " \xC2\xB7 " + std::string(stopping_names[static_cast<std::size_t>(s.stopping)]);
   if (s.start == Start::previous) text += " \xC2\xB7 warm";

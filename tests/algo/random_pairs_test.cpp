@@ -266,6 +266,39 @@ TEST(RandomPairs, NoPlaneRefutesACurvedAnswer) {
   EXPECT_LE(limits, pairs() / 400);
 }
 
+/// Every plane is a true bound whatever direction it is across: the certificates agree. And of two ellipsoids Newton's directions take half the steps.
+TEST(RandomPairs, NewtonsDirectionsAnswerAsThePlainOnes) {
+  RandomScenes random(14);
+  int plain_steps = 0, newton_steps = 0, stalled = 0;
+  for (int k = 0; k < pairs() / 4; ++k) {
+    const int dimension = k % 4 == 0 ? 2 : 3;
+    const Scene scene = random.scene(dimension, static_cast<Family>(k / 4 % family_count), false);
+    Method method;
+    method.scalar = k % 3 == 0 ? Scalar::float_precision : Scalar::double_precision;
+    const Result plain = solve(scene, resolve_settings(method, scene));
+    method.name = MethodName::gjk_accelerated, method.acceleration = Acceleration::newton;
+    const Result newton = solve(scene, resolve_settings(method, scene));
+    SCOPED_TRACE(where(dimension, static_cast<Family>(k / 4 % family_count), k));
+    const double slack = 1e-12 * size_of(scene);
+    ASSERT_TRUE(std::isfinite(*newton.signed_distance));
+    EXPECT_LE(*newton.lower_bound, *plain.upper_bound + slack);
+    EXPECT_GE(*newton.upper_bound, *plain.lower_bound - slack);
+    if (plain.status == "converged") {
+      const double tolerance = method.scalar == Scalar::float_precision ? 2e-4 : 2e-10;
+      const double band = rounding_floor(scene, resolve_settings(method, scene));
+      stalled += newton.status == "stalled";
+      EXPECT_NE(newton.status, "iteration_limit");
+      EXPECT_NEAR(*newton.signed_distance, *plain.signed_distance, tolerance * std::max(size_of(scene), std::abs(*plain.signed_distance)) + 4 * band);  // of the cores, which lie farther apart
+    }
+    const auto ellipsoid = [](const Body& body) { return std::holds_alternative<Ellipsoid>(body.shape.geometry); };
+    if (*plain.signed_distance > 0 && ellipsoid(scene.bodies[0]) && ellipsoid(scene.bodies[1])) plain_steps += plain.iterations, newton_steps += newton.iterations;
+    if (testing::Test::HasFailure()) break;
+  }
+  EXPECT_LE(stalled, pairs() / 500);
+  EXPECT_LT(newton_steps, plain_steps / 2);
+  std::printf("two ellipsoids: %d steps, plain %d\n", newton_steps, plain_steps);
+}
+
 TEST(RandomPairs, CurvedDistancesAgreeWithFiftyDigits) {
   RandomScenes random(4);
   int compared = 0;

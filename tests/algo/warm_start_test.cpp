@@ -95,7 +95,7 @@ TEST(WarmStart, AnyPairFromAnotherPlace) {
     const int dimension = 1 + k % 3;
     Scene scene = random.scene(dimension, static_cast<Family>(k / 3 % family_count), k % 2 == 0);
     Method method;
-    if (k % 4 == 3) method.name = MethodName::gjk_accelerated;
+    if (k % 4 == 3) method.name = MethodName::gjk_accelerated, method.acceleration = static_cast<Acceleration>(k / 4 % 3);
     SceneFile cold, warm;
     cold.scene = scene, cold.method = method;
     method.start = Start::previous, method.initial_simplex = last_simplex(record(cold));

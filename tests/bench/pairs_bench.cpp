@@ -172,10 +172,13 @@ void register_family(const std::string& name, const Source& source, bool three_d
   add("yes-no", MethodName::gjk, Query::intersect);
   const auto made_of = [&](std::initializer_list<std::string_view> families) { return std::any_of(families.begin(), families.end(), [&](auto f) { return name.starts_with(f); }); };
   if (made_of({"boxes", "faces-touching", "slivers", "size-ratio", "offset-1e5", "rectangles"})) add("sat", MethodName::sat);
-  if (made_of({"curved"})) {
-    Method m;
-    m.tolerance = 1e-6;
-    benchmark::RegisterBenchmark((name + "/at-1e-6").c_str(), [=](benchmark::State& state) { ours(state, name, source, m, Query::penetration); })->MinTime(0.1);
+  if (made_of({"curved", "ellipsoids"})) {
+    add("fastest", MethodName::fastest);
+    for (const auto& [method, which] : {std::pair("at-1e-6", MethodName::gjk), std::pair("fastest-at-1e-6", MethodName::fastest)}) {
+      Method m;
+      m.name = which, m.tolerance = 1e-6;
+      benchmark::RegisterBenchmark((name + "/" + method).c_str(), [=](benchmark::State& state) { ours(state, name, source, m, Query::penetration); })->MinTime(0.1);
+    }
   }
   if (name.starts_with("capsules")) add("closed-form", MethodName::closed_form);
   if (!three_d) return;

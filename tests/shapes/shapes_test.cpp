@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <Eigen/QR>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -58,6 +59,40 @@ TEST(Support, IsFartherThanAnyPointOfTheShape) {
       for (const V3& p : points) EXPECT_LE(d.dot(p), height + 1e-12);
     }
   }
+}
+
+/// Against differences of supports; a core that has none does not move.
+template <int D>
+void expect_derivative(const Shape& shape, RandomScenes& random) {
+  const Convex<D, double> convex(shape);
+  const auto vector = [&] {
+    Vector<D, double> v;
+    for (double& x : v) x = random.uniform(-1, 1);
+    return v;
+  };
+  for (int i = 0; i < 50; ++i) {
+    const Matrix<D, double> axes = Eigen::HouseholderQR<Matrix<D, double>>(Matrix<D, double>::NullaryExpr([&] { return random.uniform(-1, 1); })).householderQ();
+    const Vector<D, double> d = vector(), change = vector();
+    const auto support = [&](const Vector<D, double>& x) { return Vector<D, double>(axes * convex.support(axes.transpose() * x)); };
+    SupportDerivative<D, double> derivative;
+    convex.add_support_derivative(axes, d, support(d), derivative);
+    constexpr double h = 1e-6;
+    const Vector<D, double> before = support(d - h * change), after = support(d + h * change), expected = (after - before) / (2 * h);
+    if ((after - before).norm() > 1e-2) continue;  // a jump lies between
+    EXPECT_LE((derivative * change - expected).norm(), 1e-5 * (1 + expected.norm() / d.norm())) << i;
+    EXPECT_LE((derivative * d).norm(), 1e-12);
+  }
+}
+
+TEST(Support, MovesByItsDerivative) {
+  RandomScenes random(3);
+  const auto shared = [](const Shape& shape) { return std::make_shared<const Shape>(shape); };
+  const V3 half(0.5, 1, 0.25);
+  const Shape ellipsoid{Ellipsoid{any(V3(1, 2, 0.5))}, 0}, cylinder{Cylinder{0.5, 2, 1}, 0};
+  for (const Shape& shape : {ellipsoid, cylinder, Shape{Cone{0.5, 2, 2}, 0}, Shape{Cone{3, 0.5, 0}, 0}, Shape{Sphere{2}, 0}, Shape{Box{any(-half), any(half), true}, 0},
+                             Shape{Sum{shared(ellipsoid), shared(cylinder)}, 0}})
+    expect_derivative<3>(shape, random);
+  expect_derivative<2>({Ellipsoid{AnyVector(Eigen::Vector2d(1, 3))}, 0}, random);
 }
 
 TEST(Support, IsExactOnTheAxis) {
