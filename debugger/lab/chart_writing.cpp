@@ -30,15 +30,18 @@ std::vector<std::string> methods_of(const ChartPanel& panel) {
   return out;
 }
 
+/// The method whose scalar is left out.
+std::string in_double(const std::string& method) { return method.substr(0, method.rfind(", float")); }
+
 /// A colour a method: the scalar is told by the dash. Colour-blind safe (Okabe and Ito), peers in greys.
 std::string style_of(const std::string& method) {
-  static constexpr std::pair<const char*, const char*> colours[] = {{"signed volumes", "#0072B2"}, {"Johnson", "#D55E00"}, {"Voronoi regions", "#009E73"}, {"accelerated", "#CC79A7"}, {"Polyak", "#E69F00"}, {"Newton", "#F0E442"},
+  static constexpr std::pair<const char*, const char*> colours[] = {{"signed volumes", "#0072B2"}, {"Johnson", "#D55E00"}, {"Voronoi regions", "#009E73"}, {"accelerated", "#CC79A7"}, {"Polyak", "#E69F00"}, {"Newton", "#882255"},
                                                                     {"MPR", "#56B4E9"},            {"SAT", "#B8A800"},     {"closed form", "#7B3294"}, {"Bullet", "#222222"},          {"FCL", "#555555"},         {"libccd GJK", "#777777"},
                                                                     {"libccd MPR", "#999999"},     {"ODE", "#BBBBBB"}};
   const char* colour = "#000000";
   for (const auto& [name, value] : colours)
     if (method.starts_with(name)) colour = value;
-  const bool single = method.ends_with(", float");
+  const bool single = method != in_double(method);
   return std::string("lc rgb '") + colour + "' dt " + (single ? "2" : "1") + " pt 7 ps " + (single ? "0.3" : "0.5") + " lw 1.3";
 }
 
@@ -52,7 +55,7 @@ struct Axis {
 std::string panels(const Chart& chart, const std::string& terminal, const std::string& file, const Axis& axis) {
   const std::size_t rows = (chart.panels.size() + 2) / 3;
   std::string out = "set terminal " + terminal + "\nset output '" + file + "'\nset multiplot layout " + std::to_string(rows) + ",3 title '" + axis.title + "'\n";
-  out += "set logscale xy\nset format x '1e%T'\nset grid lc rgb '#dddddd'\nset xrange " + std::string(axis.x_range) + "\nset xtics 1e4\nset key bottom left samplen 1 spacing 0.75 maxrows 8 font ',7'\n";
+  out += "set logscale xy\nset format x '1e%T'\nset grid lc rgb '#dddddd'\nset xrange " + std::string(axis.x_range) + "\nset xtics 1e4\nset key bottom left samplen 1 spacing 0.75 maxrows 5 font ',7'\n";
   std::set<std::string> explained;
   for (const ChartPanel& panel : chart.panels) {
     const auto shown = [&](const ChartPoint& p) { return axis.x(p) >= 0; };
@@ -61,9 +64,9 @@ std::string panels(const Chart& chart, const std::string& terminal, const std::s
       if (std::any_of(panel.points.begin(), panel.points.end(), [&](const ChartPoint& p) { return p.variant == method && shown(p); })) methods.push_back(method);
     if (methods.empty()) continue;
     // A long legend stands below the curves.
-    const auto unexplained = std::count_if(methods.begin(), methods.end(), [&](const std::string& method) { return !explained.contains(method); });
+    const auto unexplained = std::count_if(methods.begin(), methods.end(), [&](const std::string& method) { return !explained.contains(in_double(method)); });
     out += "set title '" + panel.title + "' font ',11'\nset yrange [" + (unexplained > 4 ? "10" : "*") + ":*]\nplot ";
-    for (const std::string& method : methods) out += "'-' using 1:2 with linespoints " + style_of(method) + (explained.insert(method).second ? " title '" + method + "'" : " notitle") + ", ";
+    for (const std::string& method : methods) out += "'-' using 1:2 with linespoints " + style_of(method) + (explained.insert(in_double(method)).second ? " title '" + in_double(method) + "'" : " notitle") + ", ";
     out += "'-' using 1:2 with points pt 6 ps 1.3 lc rgb '#000000' notitle\n";
     const auto data = [&](const ChartPoint& p) { out += number(std::max(axis.x(p), smallest_drawn)) + " " + number(p.nanoseconds) + "\n"; };
     for (const std::string& method : methods) {
@@ -134,7 +137,7 @@ std::string chart_json(const Chart& chart) {
 }
 
 std::string chart_gnuplot(const Chart& chart, const std::string& terminal, const std::string& file) {
-  return panels(chart, terminal, file, {"Time a query (ns) against worst relative error; circles: the front", "[1e-17:1]", [](const ChartPoint& p) { return p.worst_error; }, true});
+  return panels(chart, terminal, file, {"Time a query (ns) against worst relative error; circles: the front, dashed: single precision", "[1e-17:1]", [](const ChartPoint& p) { return p.worst_error; }, true});
 }
 
 std::string gap_gnuplot(const Chart& chart, const std::string& terminal, const std::string& file) {
