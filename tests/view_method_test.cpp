@@ -1,6 +1,8 @@
 // The method's settings in the window, chosen by the mouse: where GJK begins, and methods that fit the bodies.
 #include <algorithm>
+#include <map>
 
+#include "debugger/view/explain.h"
 #include "tests/support/window_fixture.h"
 
 namespace gjkdbg {
@@ -51,6 +53,22 @@ TEST_F(MethodPanel, StartsAlongAGivenDirection) {
   EXPECT_EQ(std::get<recorded::GjkBegan>(session.recording().events[0]).direction, AnyVector(Eigen::Vector3d(1, 0, 0)));
   host.drag(225, 623, 265, 623);  // z of the direction, below
   EXPECT_GT((*session.recording().settings.initial_direction)[2], 0);
+}
+
+TEST_F(MethodPanel, SaysWhichDirectionsAreNotMinusV) {
+  const auto titles = [&](const char* scene) {
+    app.open_gallery(scene);
+    std::map<std::string, int> count;
+    for (std::size_t step = 0; step < session.count(); ++step) session.go_to(step), ++count[explain(session.recording(), session.frame()).title];
+    return count;
+  };
+  auto newton = titles("accelerated-newton");
+  EXPECT_GE(newton["Support along Newton's direction"], 2);
+  EXPECT_GE(newton["Support towards the origin"], 1) << "the last plane is across v";
+  auto momentum = titles("accelerated-polyak");
+  EXPECT_GE(momentum["Support along the momentum"], 3);
+  EXPECT_EQ(momentum.count("Support along Newton's direction"), 0u);
+  EXPECT_EQ(titles("2d-ellipses-apart").count("Support along the momentum"), 0u);
 }
 
 TEST_F(MethodPanel, OffersOnlyMethodsThatFit) {

@@ -133,18 +133,28 @@ struct Explain {
                                                               : "It lies at or past the origin along d, so nothing is proven yet.")};
   }
 
+  /// Whether directions other than -v are asked for.
+  bool led() const { return recording.settings.name == MethodName::gjk_accelerated; }
+
+  /// v of the simplex before this step; null where there is none.
+  const AnyVector* closest_before() const {
+    for (std::size_t i = frame.step; i-- > 0;)
+      if (const auto* reduced = std::get_if<recorded::SimplexReduced>(&recording.events[i])) return reduced->closest.size() > 0 ? &reduced->closest : nullptr;
+    return nullptr;
+  }
+
   /// Of a direction of GJK's, and why it is not -v where it is not.
   std::pair<const char*, const char*> way(const AnyVector& direction) const {
     const Settings& s = recording.settings;
-    const bool plain = s.name != MethodName::gjk_accelerated || !frame.closest || (direction.normalized() + frame.closest->normalized()).norm() < 1e-12;
-    if (plain) return {"Support towards the origin", ""};
+    const AnyVector* v = led() ? closest_before() : nullptr;
+    if (!v || (direction.normalized() + v->normalized()).norm() < 1e-12) return {"Support towards the origin", ""};
     if (s.acceleration == Acceleration::newton) return {"Support along Newton's direction", "The curvature of the bodies at the last supports tells where the plane farthest from the origin should lie: across d, not across v. "};
     return {"Support along the momentum", "d keeps some of the directions before it, and is not -v alone. "};
   }
 
   Explanation operator()(const recorded::SimplexReduced& e) const {
     if (e.before.size() == 1 && e.closest.size() > 0)
-      return {"The simplex is one vertex", "So the nearest point is that vertex: v = " + short_vector(e.closest) + ", |v| = " + short_number(e.closest.norm()) + "; the search goes on along -v, towards the origin."};
+      return {"The simplex is one vertex", "So the nearest point is that vertex: v = " + short_vector(e.closest) + ", |v| = " + short_number(e.closest.norm()) + (led() ? "." : "; the search goes on along -v, towards the origin.")};
     const std::string kept = letters(e.region, e.before), all = letters(e.before, e.before);
     const std::string title = e.before.size() == e.region.size() ? "The whole " + feature_name(e.region.size()) + " is kept" : "Simplex cut to " + feature_name(e.region.size()) + " " + kept;
     std::string text;
@@ -158,7 +168,7 @@ struct Explain {
     if (e.closest.size() == 0) return {title, text + ". The next direction leads from it to the origin."};
     const double length = e.closest.norm();
     if (length == 0) return {title, text + ". The origin lies in it: the nearest point is the origin itself."};
-    return {title, text + ". Its nearest point is v = " + short_vector(e.closest) + ", |v| = " + short_number(length) + "; the search goes on along -v."};
+    return {title, text + ". Its nearest point is v = " + short_vector(e.closest) + ", |v| = " + short_number(length) + (led() ? "." : "; the search goes on along -v.")};
   }
 
   Explanation operator()(const recorded::GjkEnded& e) const {

@@ -81,7 +81,9 @@ PseudoCode pseudo_code(const Recording& recording, std::size_t step) {
     return code;
   }
   const bool warm = recording.settings.start == Start::previous;
-  code = {"GJK, distance form", {warm ? "W = last simplex, or { support(d) }" : "w = support(d);  W = { w }", "repeat", "  v = point of W nearest O", "  W = the part of W that holds v", "  if v = O: overlap", "  w = support(-v)", "  if w no nearer O than v: apart", "  W = { w } + W"}, -1};
+  const Settings& settings = recording.settings;
+  const char* support = settings.name != MethodName::gjk_accelerated ? "  w = support(-v)" : settings.acceleration == Acceleration::newton ? "  w = support(Newton's d or -v)" : "  w = support(momentum's d or -v)";
+  code = {"GJK, distance form", {warm ? "W = last simplex, or { support(d) }" : "w = support(d);  W = { w }", "repeat", "  v = point of W nearest O", "  W = the part of W that holds v", "  if v = O: overlap", support, "  if w no nearer O than v: apart", "  W = { w } + W"}, -1};
   if (std::holds_alternative<recorded::GjkBegan>(event) || std::holds_alternative<recorded::VertexKept>(event)) code.current = 0;
   else if (query) code.current = query->iteration == 0 ? 0 : 5;
   else if (std::holds_alternative<recorded::SimplexReduced>(event)) code.current = 3;
