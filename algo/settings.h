@@ -13,7 +13,7 @@ namespace gjkdbg {
 enum class MethodName {
   gjk, gjk_boolean, gjk_accelerated, mpr, sat,
   closed_form,  ///< of cores that are points or segments (algo/closed_form.h)
-  fastest,      ///< of a `Method` only: whichever of closed_form, sat, gjk and gjk_accelerated (newton) the charts show to be fastest for the scene's bodies
+  fastest,      ///< of a `Method` only: whichever of closed_form, sat, gjk and gjk_accelerated the charts show to be fastest for the scene's bodies, with its settings
   conservative_advancement, ray_cast, root_finding  ///< of `cast`; GJK runs inside (algo/cast.h)
 };
 inline constexpr std::array<std::string_view, 10> method_names{"gjk", "gjk-boolean", "gjk-accelerated", "mpr", "sat", "closed-form", "fastest",
