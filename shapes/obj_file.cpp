@@ -48,6 +48,14 @@ void check_face(std::istream& words, std::size_t so_far, std::size_t in_all, con
   if (corners < 3) throw Error("bad-mesh", "a face needs three vertices", place);
 }
 
+/// Line by line, what comes before a #; and without the mark some editors put before everything.
+std::string without_comments(std::istream& in) {
+  std::string out;
+  for (std::string line; std::getline(in, line); out += '\n') out += line.substr(0, line.find('#'));
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  return out.starts_with(byte_order_mark) ? out.substr(byte_order_mark.size()) : out;
+}
+
 /// tinyobjloader reads single precision and skips what it cannot read; vertices are therefore taken from their lines,
 /// in double, and anything malformed is named, with its line.
 std::vector<AnyVector> read_vertices(const std::string& text, const std::string& name) {
@@ -56,7 +64,7 @@ std::vector<AnyVector> read_vertices(const std::string& text, const std::string&
     std::istringstream in(text);
     std::string line, keyword;
     for (int number = 1; std::getline(in, line); ++number)
-      if (std::istringstream words(line); words >> keyword && keyword[0] != '#') line_of(keyword, words, name + ": line " + std::to_string(number));
+      if (std::istringstream words(line); words >> keyword) line_of(keyword, words, name + ": line " + std::to_string(number));
   };
   for_lines([&](const std::string& keyword, std::istream& words, const std::string& place) {
     if (keyword == "v") points.push_back(read_vertex(words, place));
@@ -74,11 +82,11 @@ std::vector<AnyVector> read_vertices(const std::string& text, const std::string&
 
 ObjMesh read_obj(const std::filesystem::path& file) {
   const std::string name = file.string();
-  std::ostringstream whole;
-  whole << open_input(file).rdbuf();
-  std::istringstream text(whole.str());
+  auto input = open_input(file);
+  const std::string statements_only = without_comments(input);
+  std::istringstream text(statements_only);
   ObjMesh mesh;
-  mesh.points = read_vertices(whole.str(), name);
+  mesh.points = read_vertices(statements_only, name);
   if (mesh.points.empty()) throw Error("no-points", "holds no vertices", name);
 
   tinyobj::attrib_t attributes;
