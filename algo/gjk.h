@@ -84,7 +84,7 @@ class Gjk {
       if (led) {
         if (options_.goal == GjkGoal::intersect && result_.lower_bound > difference_.radius()) return finish(GjkStatus::separated);
         if (brings_nothing(point)) {
-          accelerating_ = false;
+          accelerating_ = false, ++asked_in_vain_;
           continue;
         }
       } else if (proven(point)) {
@@ -106,7 +106,7 @@ class Gjk {
       trace_(SupportQueried<V, Viewed>{result_.iterations, Phase::gjk, d, point.vertex, point.a, point.b, point.w});
     plane_ = -d.dot(point.w) / length;
     result_.lower_bound = std::max(result_.lower_bound, plane_ - floor_);
-    if (options_.accelerated) newton_.take(d, length, point);
+    if (options_.accelerated && options_.acceleration == Acceleration::newton) newton_.take(d, length, point);
     return point;
   }
 
@@ -145,7 +145,7 @@ class Gjk {
 
   /// A direction other than -v, and its length; false: none is wanted. Not in the loop's own code, most of whose runs have no use for it.
   [[gnu::noinline]] bool lead(V& d, S& length) {
-    if (options_.acceleration == Acceleration::newton) return !options_.normalised && newton(d, length);
+    if (options_.acceleration == Acceleration::newton) return !options_.normalised && asked_in_vain_ < 3 && newton(d, length);
     if (!accelerating_) return false;
     d = accelerated_direction(), length = d.norm();
     return true;
@@ -166,7 +166,7 @@ class Gjk {
     return newton_led_ = true;
   }
 
-  /// The Frank-Wolfe gap: a support that is no nearer than v along v adds nothing. From there on the plain direction is right.
+  /// The Frank-Wolfe gap: a support that is no nearer than v along v adds nothing. From there on the plain direction is right, and momentum over.
   bool brings_nothing(const Point& point) const {
     return !(result_.v.dot(result_.v - point.w) > options_.tolerance * v_squared_) || result_.simplex.holds(point.w);
   }
@@ -197,12 +197,13 @@ class Gjk {
   }
 
   /// |v| must fall. Where the plane still turns but |v| falls by less than it rounds (a nearly flat part of A - B met at
-  /// a grazing angle), a few steps on the spot are allowed.
+  /// a grazing angle), a few steps on the spot are allowed. Newton's directions bring |v| to its least before that, where |v| is known to a floor only.
   bool accept(const Feature& feature) {
     if (feature.enclosed && result_.lower_bound > 0) return false;  // a support plane has shown the origin outside: rounding speaks
     if (!feature.enclosed && !(feature.v_squared < v_squared_)) {
-      constexpr S rounding = 8 * std::numeric_limits<S>::epsilon();
-      if (feature.v == result_.v || !(feature.v_squared <= v_squared_ * (1 + rounding)) || ++steps_on_the_spot_ > 8) return false;
+      const bool newton = options_.accelerated && options_.acceleration == Acceleration::newton;
+      const S rounding = newton ? 2 * result_.distance * floor_ : 8 * std::numeric_limits<S>::epsilon() * v_squared_;
+      if (feature.v == result_.v || !(feature.v_squared <= v_squared_ + rounding) || ++steps_on_the_spot_ > 8) return false;
     }
     if constexpr (traced<Trace>) before_ = vertex_numbers();
     result_.simplex.reduce_to(feature);
@@ -309,6 +310,7 @@ class Gjk {
   bool enclosed_ = false;
   int steps_on_the_spot_ = 0;
   bool accelerating_ = options_.accelerated;  ///< the momentum still helps
+  int asked_in_vain_ = 0;                     ///< supports of directions that lead, which brought nothing: on a face of a body the model of two pieces never comes right
   bool newton_led_ = false;                   ///< the last direction was Newton's
   S gap_ = 0;                                 ///< of the bounds, before it
   NewtonDirection<Difference> newton_{difference_};

@@ -12,7 +12,7 @@
 // u - m = -w / p: plain GJK with one vertex. Where p is not positive, or not known to be near the distance yet, the caller's guess of the distance damps the step.
 //
 // A face or an edge of either body is a ridge of the planes, where h is the greater of two smooth pieces. With the gradients g and g' at u (of the
-// piece met before, w' + H' u, since H' u' = 0), one H for both, and m(y) = (H + p I)^-1 (y - (y . u) u), the farthest plane is that of y = g + t (g' - g) where
+// piece that the model was of before, w' + H' u, since H' u' = 0), one H for both, and m(y) = (H + p I)^-1 (y - (y . u) u), the farthest plane is that of y = g + t (g' - g) where
 // both pieces are as high: (g' - g) . (u - m(y)) = 0, for t between 0 and 1. The pieces are told apart by whether a derivative foretold
 // the next support. Where three pieces meet, and far from the answer, the model misleads; each plane is a true bound all the same, and the caller
 // goes back to the plain direction.

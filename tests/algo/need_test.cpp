@@ -136,9 +136,7 @@ TEST(Need, TheFastestMethodGoesByTheBodies) {
   }
   fastest.tolerance = 1e-6;
   EXPECT_EQ(chosen("pair-ellipsoid-ellipsoid", fastest), MethodName::gjk_accelerated);
-  const Settings coarse = resolve_settings(fastest, read_scene(gallery.file("pair-cone-ellipsoid")).scene);
-  EXPECT_EQ(coarse.name, MethodName::gjk) << "to so coarse a tolerance plain steps are cheaper";
-  EXPECT_EQ(coarse.closest_point, ClosestPoint::voronoi);
+  EXPECT_EQ(chosen("pair-cone-ellipsoid", fastest), MethodName::gjk) << "to so coarse a tolerance plain steps are cheaper";
   fastest.closest_point = ClosestPoint::johnson;
   EXPECT_EQ(chosen("box-box-deep", fastest), MethodName::gjk) << "a setting of GJK's asks for GJK";
 }

@@ -299,6 +299,29 @@ TEST(RandomPairs, NewtonsDirectionsAnswerAsThePlainOnes) {
   std::printf("two ellipsoids: %d steps, plain %d\n", newton_steps, plain_steps);
 }
 
+/// A ball, as an ellipsoid, nearly touches an edge: |v| rounds by far more than its square's last digits, and that must not end the search.
+TEST(RandomPairs, NearlyTouchedEdgesDoNotStall) {
+  RandomScenes random(15);
+  const auto vector = [&] { return AnyVector(Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1))); };
+  for (int k = 0; k < pairs() / 10; ++k) {
+    Scene scene;
+    scene.dimension = 3;
+    scene.query = Query::penetration;
+    Body ball{"A", {Ellipsoid{AnyVector(Eigen::Vector3d::Ones())}, 0}, identity_pose(3)}, edge{"B", {PointSet{PointSetKind::segment, {vector() * 2, vector() * 2}, {}}, 0}, identity_pose(3)};
+    edge.pose.position = vector().normalized() * 6;
+    scene.bodies = {ball, edge};
+    const Result far = answer(scene, Query::penetration);
+    const double gap = std::pow(10.0, -4 - k % 4);
+    scene.bodies[1].pose.position -= *far.normal * (*far.signed_distance - gap);
+    Method method;
+    method.name = MethodName::gjk_accelerated, method.acceleration = Acceleration::newton;
+    const Result newton = solve(scene, resolve_settings(method, scene));
+    EXPECT_EQ(newton.status, "converged") << "pair " << k;
+    EXPECT_NEAR(*newton.signed_distance, gap, 1e-9) << "pair " << k;
+    if (testing::Test::HasFailure()) break;
+  }
+}
+
 TEST(RandomPairs, CurvedDistancesAgreeWithFiftyDigits) {
   RandomScenes random(4);
   int compared = 0;
