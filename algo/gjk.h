@@ -106,7 +106,7 @@ class Gjk {
       trace_(SupportQueried<V, Viewed>{result_.iterations, Phase::gjk, d, point.vertex, point.a, point.b, point.w});
     plane_ = -d.dot(point.w) / length;
     result_.lower_bound = std::max(result_.lower_bound, plane_ - floor_);
-    if (options_.accelerated && options_.acceleration == Acceleration::newton) newton_.take(d, length, point);
+    if (by_newton()) newton_.take(d, length, point);
     return point;
   }
 
@@ -143,9 +143,11 @@ class Gjk {
     return -momentum_;
   }
 
+  bool by_newton() const { return options_.accelerated && options_.acceleration == Acceleration::newton; }
+
   /// A direction other than -v, and its length; false: none is wanted. Not in the loop's own code, most of whose runs have no use for it.
   [[gnu::noinline]] bool lead(V& d, S& length) {
-    if (options_.acceleration == Acceleration::newton) return !options_.normalised && asked_in_vain_ < 3 && newton(d, length);
+    if (by_newton()) return !options_.normalised && asked_in_vain_ < 3 && newton(d, length);
     if (!accelerating_) return false;
     d = accelerated_direction(), length = d.norm();
     return true;
@@ -201,8 +203,7 @@ class Gjk {
   bool accept(const Feature& feature) {
     if (feature.enclosed && result_.lower_bound > 0) return false;  // a support plane has shown the origin outside: rounding speaks
     if (!feature.enclosed && !(feature.v_squared < v_squared_)) {
-      const bool newton = options_.accelerated && options_.acceleration == Acceleration::newton;
-      const S rounding = newton ? 2 * result_.distance * floor_ : 8 * std::numeric_limits<S>::epsilon() * v_squared_;
+      const S rounding = by_newton() ? 2 * result_.distance * floor_ : 8 * std::numeric_limits<S>::epsilon() * v_squared_;
       if (feature.v == result_.v || !(feature.v_squared <= v_squared_ + rounding) || ++steps_on_the_spot_ > 8) return false;
     }
     if constexpr (traced<Trace>) before_ = vertex_numbers();
