@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "algo/signed_volumes.h"
 #include "algo/solve.h"
 #include "recordings/scene_file.h"
 #include "tests/support/random_scenes.h"
@@ -182,6 +183,20 @@ TEST(EdgeCases, LengthsBelowTheNormalNumbers) {
   EXPECT_TRUE(r.intersecting);
   EXPECT_NEAR(*r.signed_distance / 1e-310, -0.5, 1e-10);
   EXPECT_NEAR(r.normal->norm(), 1, 1e-15);
+}
+
+/// A simplex as flat as 1e-16 of its size, around the origin: volumes in plain arithmetic are noise, and weights made of them put the common point 400 outside.
+TEST(EdgeCases, WeightsOfAFlatSimplexAroundTheOrigin) {
+  using V = Eigen::Vector3d;
+  const V w[] = {{2810.403518979995, -705.740376336218, -1215.1224243218005},
+                 {2810.4035189799947, -705.7481279341624, -1215.1179221878901},
+                 {2810.4035189799947, -705.7326247368399, -1215.1269264102584},
+                 {-1205.047108698051, 302.6079468902094, 521.0211742542091}};
+  const auto feature = SignedVolumes<3, double>::closest(w, 4);
+  ASSERT_TRUE(feature.enclosed);
+  V made = V::Zero();
+  for (int i = 0; i < 4; ++i) made += feature.weight[i] * w[feature.index[i]];
+  EXPECT_LE(made.norm(), 1e-9);
 }
 
 }  // namespace
