@@ -222,7 +222,9 @@ void App::top_bar(const Area& area) {
     const auto width = [&](const std::string& text) { return theme.small->CalcTextSizeA(theme.small->FontSize, 1e6f, 0, text.c_str()).x + theme.px(22); };
     const float here = ImGui::GetItemRectMax().x + theme.px(16), title = ImGui::CalcTextSize(session.title().c_str()).x, middle = area.width / 2 - title / 2;
     const auto both = [&] { return width(result) + width(method) + theme.px(8); };
-    if (area.width - both() - theme.px(16) < here) method = method_text(session.recording().settings);  // a narrow window: the query is left out
+    const auto too_wide = [&] { return area.width - both() - theme.px(16) < here; };
+    if (too_wide()) method = method_text(session.recording().settings);  // a narrow window: the query is left out, then all but the name
+    if (too_wide()) method = method_names[static_cast<std::size_t>(session.recording().settings.name)];
     const float chips = both();
     if (std::max(middle, here) + title < area.width - chips - theme.px(24)) {
       ImGui::SameLine(std::max(middle, here));
