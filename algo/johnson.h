@@ -9,7 +9,7 @@
 // this is the method to compare with, not the default.
 #pragma once
 
-#include "algo/simplex.h"
+#include "algo/enclosing_simplex.h"
 
 namespace gjkdbg {
 
@@ -73,6 +73,7 @@ class Johnson {
   }
 
   Feature feature(unsigned x) const {
+    if (size_ == most && x == (1u << most) - 1) return EnclosingSimplex<D, S>::feature(w_, delta_[x]);
     Feature f;
     S sum = 0;
     for (int i = 0; i < size_; ++i)
@@ -83,8 +84,6 @@ class Johnson {
       f.weight[f.count] = delta_[x][i] / sum;
       f.v += f.weight[f.count++] * w_[i];
     }
-    f.enclosed = f.count == most;
-    if (f.enclosed) f.v.setZero();
     f.v_squared = f.v.dot(f.v);
     return f;
   }

@@ -23,6 +23,7 @@
 #include <limits>
 
 #include "algo/closest_point_wide.h"
+#include "algo/enclosing_simplex.h"
 #include "algo/orientation.h"
 #include "algo/simplex.h"
 #include "algo/voronoi.h"
@@ -131,34 +132,6 @@ struct SignedVolumes {
     best = f;
   }
 
-  /// The weights are the parts' sizes, each known to `error`: of a simplex so flat that these say little, in twice the precision.
-  static void enclosed(const V* w, std::array<S, D + 1> sizes, S error, Feature& f) {
-    const auto whole = [&] {
-      S sum = 0;
-      for (const S size : sizes) sum += size;
-      return sum;
-    };
-    S sum = whole();
-    if (sum * std::sqrt(std::numeric_limits<S>::epsilon()) < error) sizes = sizes_wide(w), sum = whole();
-    f.count = D + 1, f.enclosed = true;
-    for (int i = 0; i <= D; ++i) f.index[i] = i, f.weight[i] = sizes[i] / sum;
-  }
-
-  /// Area or volume of the simplex with vertex i replaced by the origin, for all i.
-  static std::array<S, D + 1> sizes_wide(const V* w) {
-    std::array<WideVector<S>, 4> v;
-    for (int i = 0; i <= D; ++i) v[i] = WideVector<S>(w[i]);
-    if constexpr (D < 3) v[3].c[2] = Wide<S>(1.0);  // the plane's normal
-    std::array<S, D + 1> sizes;
-    for (int i = 0; i <= D; ++i) {
-      std::array<int, 3> others{3, 3, 3};
-      for (int j = 0, n = 0; j <= D; ++j)
-        if (j != i) others[n++] = j;
-      sizes[i] = static_cast<S>(std::abs(static_cast<double>(v[others[0]].cross(v[others[1]]).dot(v[others[2]]))));
-    }
-    return sizes;
-  }
-
   static void full(const V* w, Feature& best) {
     if constexpr (D == 1) interval(w, best);
     if constexpr (D == 2) flat_triangle(w, best);
@@ -167,8 +140,8 @@ struct SignedVolumes {
 
   static void interval(const V* w, Feature& best) {
     const S low = w[0][0], high = w[1][0];
-    if ((low < 0 && high > 0) || (low > 0 && high < 0)) return enclosed(w, {std::abs(high), std::abs(low)}, 0, best);
-    vertex(w, std::abs(low) <= std::abs(high) ? 0 : 1, best);
+    if ((low < 0 && high > 0) || (low > 0 && high < 0)) best = EnclosingSimplex<D, S>::feature(w, {std::abs(high), std::abs(low)});
+    else vertex(w, std::abs(low) <= std::abs(high) ? 0 : 1, best);
   }
 
   /// Sign of a value known to `error`; when rounding could flip it, `exactly()` decides.
@@ -193,7 +166,7 @@ struct SignedVolumes {
       inside = false;
       segment(w, j, k, best);
     }
-    if (inside) enclosed(w, {std::abs(value[0]), std::abs(value[1]), std::abs(value[2])}, error, best);
+    if (inside) best = EnclosingSimplex<D, S>::feature(w, {std::abs(value[0]), std::abs(value[1]), std::abs(value[2])});
   }
 
   /// In three numbers, which stay in registers where a vector would go through memory.
@@ -223,7 +196,7 @@ struct SignedVolumes {
       });
       faces[beyond] = i, beyond += (side != whole) | (whole == 0);
     }
-    if (beyond == 0) return enclosed(w, {std::abs(value[0]), std::abs(value[1]), std::abs(value[2]), std::abs(value[3])}, error, best);
+    if (beyond == 0) best = EnclosingSimplex<D, S>::feature(w, {std::abs(value[0]), std::abs(value[1]), std::abs(value[2]), std::abs(value[3])});
     for (int k = 0; k < beyond && best.count < 3; ++k) triangle(w, (faces[k] + 1) % 4, (faces[k] + 2) % 4, (faces[k] + 3) % 4, best);
   }
 };

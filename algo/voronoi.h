@@ -17,7 +17,7 @@
 #include <cmath>
 #include <limits>
 
-#include "algo/simplex.h"
+#include "algo/enclosing_simplex.h"
 
 namespace gjkdbg {
 
@@ -31,7 +31,7 @@ struct VoronoiRegions {
     if (size == 1) return part(w, {0}, {1}, 1);
     if (size == 2) {
       if constexpr (D == 1) {
-        if ((w[0][0] < 0) != (w[1][0] < 0) && w[0][0] != 0 && w[1][0] != 0) return enclosed({std::abs(w[1][0]), std::abs(w[0][0])});
+        if ((w[0][0] < 0) != (w[1][0] < 0) && w[0][0] != 0 && w[1][0] != 0) return EnclosingSimplex<D, S>::feature(w, {std::abs(w[1][0]), std::abs(w[0][0])});
       }
       return segment(w, 0, 1);
     }
@@ -47,16 +47,6 @@ struct VoronoiRegions {
     f.count = count;
     for (int i = 0; i < count; ++i) f.index[i] = index[i], f.weight[i] = weight[i], f.v += weight[i] * w[index[i]];
     f.v_squared = f.v.dot(f.v);
-    return f;
-  }
-
-  /// The weight of a vertex is the volume (area, length) of the simplex with the origin in its place, over the whole.
-  static Feature enclosed(const std::array<S, D + 1>& volumes) {
-    Feature f;
-    f.count = D + 1, f.enclosed = true;
-    S sum = 0;
-    for (const S volume : volumes) sum += volume;
-    for (int i = 0; i <= D; ++i) f.index[i] = i, f.weight[i] = sum > 0 ? volumes[i] / sum : S(1) / (D + 1);
     return f;
   }
 
@@ -84,7 +74,7 @@ struct VoronoiRegions {
     if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0 && along > 0) return part(w, {b, c}, {1 - (d4 - d3) / along, (d4 - d3) / along}, 2);
     const S sum = va + vb + vc;
     if (!(sum > 0)) return nearest_edge(w, a, b, c);  // no area
-    if constexpr (D == 2) return enclosed({va, vb, vc});
+    if constexpr (D == 2) return EnclosingSimplex<D, S>::feature(w, {va, vb, vc});
     return part(w, {a, b, c}, {va / sum, vb / sum, vc / sum}, 3);
   }
 
@@ -116,7 +106,7 @@ struct VoronoiRegions {
     }
     if (best.count > 0) return best;
     const auto volume = [&](int i, int j, int k) { return std::abs(w[i].dot(w[j].cross(w[k]))); };
-    return enclosed({volume(1, 2, 3), volume(0, 2, 3), volume(0, 1, 3), volume(0, 1, 2)});
+    return EnclosingSimplex<D, S>::feature(w, {volume(1, 2, 3), volume(0, 2, 3), volume(0, 1, 3), volume(0, 1, 2)});
   }
 };
 

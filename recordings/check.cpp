@@ -201,11 +201,13 @@ std::vector<Finding> check(const Recording& recording) {
   CheckContext context(recording);
   TraceCheck trace(context);
   Walk walk(context);
+  RecordCheck record(context);
   for (std::size_t i = 0; i < recording.events.size(); ++i) {
     context.step = i;
     trace.order(recording.events[i]);
     std::visit(walk, recording.events[i]);
     trace.values(recording.events[i]);
+    record(recording.events[i]);
     if (std::holds_alternative<recorded::MprEnded>(recording.events[i])) context.of_cores();
   }
   trace.finish();
@@ -214,7 +216,7 @@ std::vector<Finding> check(const Recording& recording) {
     query == Query::cast ? check_cast(context) : check_simulation(context);
     return context.take();
   }
-  if (recording.result.status != "aborted") check_result(context, walk.best_plane);
+  if (recording.result.status != "aborted") check_result(context, walk.best_plane), record.result();
   check_need(context);
   return context.take();
 }

@@ -184,6 +184,53 @@ class EpaCheck {
   AnyVector chosen_normal_;  ///< as recorded; empty after the query along it
 };
 
+/// What our own recordings say twice: see check_record.cpp.
+class RecordCheck {
+ public:
+  explicit RecordCheck(CheckContext& context);
+  /// After every other check of the event: what those find is nearer to the cause.
+  void operator()(const Event& event);
+  void result();
+
+ private:
+  void contradiction(const std::string& message);
+  void contradicts_beginning(const std::string& message);
+  void counted(int iteration);
+  void add(const std::vector<recorded::Face>& faces);
+  void judge(const recorded::GjkBegan& e);
+  void judge(const recorded::VertexKept& e);
+  void judge(const recorded::SupportQueried& e);
+  void judge(const recorded::SimplexReduced& e);
+  void judge(const recorded::GjkEnded& e);
+  void judge(const recorded::PolytopeSeeded& e);
+  void judge(const recorded::FaceChosen& e);
+  void judge(const recorded::PolytopeGrown& e);
+  void judge(const recorded::EpaEnded& e);
+  void judge(const recorded::PortalFound& e);
+  void judge(const recorded::MprEnded& e);
+  void judge(const recorded::SatBegan& e);
+  void judge(const recorded::AxisTested& e);
+  void judge(const recorded::SatEnded& e);
+  void judge(const recorded::ClosedFormBegan& e);
+  void judge(const recorded::LinesSolved& e);
+  void judge(const recorded::ClosedFormEnded& e);
+  template <class E>
+  void judge(const E&) {}
+
+  CheckContext& c_;
+  const bool ours_, moves_;
+  std::size_t began_ = 0;              ///< the step the phase began at
+  AnyVector first_;                    ///< the direction GJK says it begins with, until it has
+  std::optional<int> last_iteration_;  ///< of the phase
+  int iterations_ = 0, supports_ = 0, newest_ = -1;
+  std::set<std::string> statuses_;            ///< of the phases that ended
+  std::vector<int> simplex_, asked_;          ///< GJK's: kept, and asked for since; newest first
+  std::map<int, recorded::Face> faces_;       ///< EPA's, those removed too
+  std::set<int> chosen_;                      ///< of these
+  std::array<int, 3> axes_{};                 ///< SAT's, by source: how many may still come
+  std::optional<recorded::ClosedFormBegan> segments_;
+};
+
 /// The answer against our own.
 void check_result(CheckContext& context, double best_plane);
 /// A cast: whether bodies meet, when, which, how, and where they end.

@@ -62,7 +62,7 @@ struct Judge {
 
   /// Any unit direction along which the bodies are as far apart, or as little deep, as they are at best is a right normal.
   void normal() const {
-    if (!r.normal || !c.has_supports) return;
+    if (!r.normal) return;
     const AnyVector& n = *r.normal;
     const double sd = *right.signed_distance;
     if (c.recording.scene.scene.query == Query::distance && sd <= 0) return;
@@ -70,6 +70,7 @@ struct Judge {
       c.find("wrong-normal", "The normal " + text_of(n) + " has length " + text_of(n.norm()) + " instead of 1.");
       return;
     }
+    if (!c.has_supports) return;
     const double slack = 10 * limit + (*right.upper_bound - *right.lower_bound);
     const double along = -c.body_height(n), against = -c.body_height(-n);
     // What is not the best way out is one all the same: the bodies are as deep along it as is said.
@@ -83,9 +84,9 @@ struct Judge {
 
   void witnesses() const {
     const Scene& scene = c.recording.scene.scene;
-    if (!c.has_supports) return;
     const double slack = 10 * limit;
-    const double out_a = r.witness_a ? outside(scene, 0, *r.witness_a) : 0, out_b = r.witness_b ? outside(scene, 1, *r.witness_b) : 0;
+    const bool convex = c.has_supports;
+    const double out_a = convex && r.witness_a ? outside(scene, 0, *r.witness_a) : 0, out_b = convex && r.witness_b ? outside(scene, 1, *r.witness_b) : 0;
     if (out_a > slack || out_b > slack) {
       const bool a = out_a > slack;
       c.find("wrong-witness", std::string("witness_") + (a ? "a " : "b ") + text_of(a ? *r.witness_a : *r.witness_b) + " lies " + text_of(a ? out_a : out_b) + " outside its body. " +
@@ -95,8 +96,26 @@ struct Judge {
     }
     if (!r.witness_a || !r.witness_b || !r.normal || !r.signed_distance || (scene.query == Query::distance && r.intersecting)) return;
     const double off = (*r.witness_b - *r.witness_a - *r.signed_distance * *r.normal).norm();
-    if (off > slack)
+    if (off > 10 * c.answer_tolerance())
       c.find("wrong-witness", "witness_b - witness_a is " + text_of(AnyVector(*r.witness_b - *r.witness_a)) + ", but signed_distance * normal is " + text_of(AnyVector(*r.signed_distance * *r.normal)) + ": the points and the distance do not belong together.");
+  }
+
+  /// Points of the bodies as far behind one another as is said, and no farther than the bodies are deep.
+  void contacts() const {
+    if (!r.contacts || !r.normal || !c.has_supports) return;
+    const Scene& scene = c.recording.scene.scene;
+    const double slack = 1e-4 * c.size + 10 * limit;  // the face that is clipped lies across the normal to 4e-5
+    if (r.contacts->empty() == r.intersecting && std::abs(*right.signed_distance) > limit)
+      c.find("wrong-contact", r.intersecting ? "The bodies overlap, but there is no contact point." : "The bodies are apart, but there are contact points.");
+    for (std::size_t i = 0; i < r.contacts->size(); ++i) {
+      const ContactPoint& p = (*r.contacts)[i];
+      const std::string name = "Contact point " + std::to_string(i) + ", " + text_of(p.point_a) + " and " + text_of(p.point_b) + ", " + text_of(p.depth) + " deep, ";
+      const double off = (p.point_b - p.point_a + p.depth * *r.normal).norm();
+      const double out = std::max(outside(scene, 0, p.point_a), outside(scene, 1, p.point_b));
+      if (off > slack) c.find("wrong-contact", name + "is off by " + text_of(off) + ": point_b - point_a is -depth * normal.");
+      else if (out > slack) c.find("wrong-contact", name + "lies " + text_of(out) + " outside one of the bodies.");
+      else if (p.depth < 0 || p.depth > slack - *right.signed_distance) c.find("wrong-contact", name + "is deeper than the bodies, which are " + text_of(-*right.signed_distance) + " deep, or not at all.");
+    }
   }
 };
 
@@ -118,6 +137,7 @@ void check_result(CheckContext& c, double best_plane) {
   judge.bounds();
   judge.normal();
   judge.witnesses();
+  judge.contacts();
 }
 
 void check_need(CheckContext& c) {

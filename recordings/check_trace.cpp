@@ -131,6 +131,10 @@ void TraceCheck::bounds(double lower, double upper) {
 /// Along a unit normal the bodies are as far apart, or as little deep, as is said.
 void TraceCheck::along(const AnyVector& normal, double distance) {
   if (!c_.has_supports || c_.inferred || !normal.allFinite() || normal.isZero(0)) return;
+  if (std::abs(normal.norm() - 1) > 1e-4) {
+    c_.find("wrong-normal", "The normal " + text_of(normal) + " has length " + text_of(normal.norm()) + " instead of 1.");
+    return;
+  }
   const double limit = c_.answer_tolerance();
   if (std::abs(-c_.body_height(normal) - distance) <= limit) return;
   const std::string said = "Along the normal " + text_of(normal) + " the bodies are said to be " + text_of(distance) + " apart (negative: overlapping), but they are " + text_of(-c_.body_height(normal));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "algo/johnson.h"
 #include "algo/signed_volumes.h"
 #include "algo/solve.h"
 #include "recordings/scene_file.h"
@@ -197,6 +198,23 @@ TEST(EdgeCases, WeightsOfAFlatSimplexAroundTheOrigin) {
   V made = V::Zero();
   for (int i = 0; i < 4; ++i) made += feature.weight[i] * w[feature.index[i]];
   EXPECT_LE(made.norm(), 1e-9);
+}
+
+/// From a stack of boxes at rest: two supports of the same height to the last digit but one, a third below. Cofactors cancel to 1e-17 of themselves.
+template <class ClosestPoint>
+void weights_make_the_origin() {
+  using V = Eigen::Vector2d;
+  const V w[] = {{-4.520000003705495, 6.330430846190893e-09}, {-5.520000003704971, -1.0168620712125431e-06}, {5.479999996294505, 6.330430846190893e-09}};
+  const auto feature = ClosestPoint::closest(w, 3);
+  ASSERT_TRUE(feature.enclosed);
+  V made = V::Zero();
+  for (int i = 0; i < 3; ++i) made += feature.weight[i] * w[feature.index[i]];
+  EXPECT_LE(made.norm(), 1e-12);
+}
+TEST(EdgeCases, WeightsOfAFlatTriangleAroundTheOrigin) {
+  weights_make_the_origin<SignedVolumes<2, double>>();
+  weights_make_the_origin<Johnson<2, double>>();
+  weights_make_the_origin<VoronoiRegions<2, double>>();
 }
 
 }  // namespace

@@ -1,0 +1,195 @@
+// check, what our own recordings say twice: numbers and lists that follow from others. Other programs number and list as they like.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "recordings/check_context.h"
+
+namespace gjkdbg {
+namespace {
+
+std::string list_of(const std::vector<int>& numbers) {
+  std::string out = "[";
+  for (std::size_t i = 0; i < numbers.size(); ++i) out += (i > 0 ? ", " : "") + std::to_string(numbers[i]);
+  return out + "]";
+}
+
+bool holds(const std::vector<int>& list, int number) { return std::find(list.begin(), list.end(), number) != list.end(); }
+
+bool same_numbers(std::vector<int> x, std::vector<int> y) {
+  std::sort(x.begin(), x.end()), std::sort(y.begin(), y.end());
+  return x == y;
+}
+
+}  // namespace
+
+RecordCheck::RecordCheck(CheckContext& context)
+    : c_(context), ours_(context.recording.generator.starts_with("gjkdbg ")), moves_(context.recording.scene.scene.query >= Query::cast) {}
+
+void RecordCheck::contradiction(const std::string& message) { c_.find("inconsistent", message + " The recording contradicts itself: it was changed, or written wrongly."); }
+
+/// Of what the phase began with.
+void RecordCheck::contradicts_beginning(const std::string& message) {
+  const std::size_t here = std::exchange(c_.step, began_);
+  contradiction(message);
+  c_.step = here;
+}
+
+void RecordCheck::operator()(const Event& event) {
+  if (!ours_) return;
+  if (kind_name(event).ends_with("_began")) began_ = c_.step;
+  std::visit(
+      [this](const auto& e) {
+        if constexpr (requires { e.iteration; })
+          if (!moves_) counted(e.iteration);  // a cast's steps hold runs of their own
+        if constexpr (requires { e.iteration; e.status; }) iterations_ += e.iteration;
+        judge(e);
+      },
+      event);
+  if (kind_name(event).ends_with("_ended")) last_iteration_.reset();
+}
+
+/// Iterations are counted from 0, or from 1, phase by phase.
+void RecordCheck::counted(int iteration) {
+  const int least = last_iteration_.value_or(0);
+  if (iteration < least || iteration > least + 1)
+    contradiction("The iteration is given as " + std::to_string(iteration) + (last_iteration_ ? ", after " + std::to_string(*last_iteration_) : ", where a phase begins") + ".");
+  last_iteration_ = iteration;
+}
+
+void RecordCheck::judge(const recorded::GjkBegan& e) { simplex_.clear(), asked_.clear(), first_ = e.direction; }
+/// Where a simplex was kept, its nearest point leads on.
+void RecordCheck::judge(const recorded::VertexKept& e) { first_ = AnyVector(), asked_.insert(asked_.begin(), e.vertex); }
+void RecordCheck::judge(const recorded::SupportQueried& e) {
+  ++supports_;
+  newest_ = e.vertex;
+  if (e.phase != Phase::gjk) return;
+  const AnyVector first = std::exchange(first_, AnyVector());
+  if (asked_.empty() && first.size() > 0 && first != e.direction) contradicts_beginning("The first direction is " + text_of(e.direction) + ", but GJK began with " + text_of(first) + ".");
+  asked_.insert(asked_.begin(), e.vertex);
+}
+
+/// Newest first; with momentum, a support that brought nothing is not kept.
+void RecordCheck::judge(const recorded::SimplexReduced& e) {
+  std::vector<int> right = std::exchange(asked_, {});
+  right.insert(right.end(), simplex_.begin(), simplex_.end());
+  const bool some = c_.recording.settings.name == MethodName::gjk_accelerated;
+  const bool known = some ? std::all_of(e.before.begin(), e.before.end(), [&](int v) { return holds(right, v); }) : e.before == right;
+  if (!known || std::set<int>(e.before.begin(), e.before.end()).size() != e.before.size())
+    contradiction("\"before\" is " + list_of(e.before) + ", but the vertices kept and those asked for since are " + list_of(right) + ".");
+  for (const int v : e.region)
+    if (!holds(e.before, v)) contradiction("Vertex " + std::to_string(v) + " was kept, but \"before\" does not hold it.");
+  if (e.closest.size() > 0 && e.barycentric.size() != e.region.size()) contradiction("There are " + std::to_string(e.barycentric.size()) + " weights for " + std::to_string(e.region.size()) + " vertices.");
+  simplex_ = e.region;
+}
+
+void RecordCheck::judge(const recorded::GjkEnded& e) { statuses_.emplace(gjk_status_names[static_cast<std::size_t>(e.status)]); }
+
+/// As many vertices as dimensions, in 3D counter-clockwise seen from outside.
+void RecordCheck::add(const std::vector<recorded::Face>& faces) {
+  for (const recorded::Face& f : faces) {
+    faces_[f.face] = f;
+    const std::string name = "Face " + std::to_string(f.face) + ", " + list_of(f.vertices) + ", ";
+    if (static_cast<int>(f.vertices.size()) != c_.dimension) contradiction(name + "has " + std::to_string(f.vertices.size()) + " vertices instead of " + std::to_string(c_.dimension) + ".");
+    if (c_.dimension != 3 || f.vertices.size() != 3) continue;
+    std::array<Eigen::Vector3d, 3> w;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const AnyVector* point = c_.vertex(f.vertices[i]);
+      if (!point) return;
+      w[i] = *point;
+    }
+    const Eigen::Vector3d area = (w[1] - w[0]).cross(w[2] - w[0]), normal = f.normal;
+    if (area.dot(normal) < -0.5 * area.norm() * normal.norm()) contradiction(name + "is listed clockwise, seen from where its normal points.");
+  }
+}
+
+void RecordCheck::judge(const recorded::PolytopeSeeded& e) {
+  add(e.faces);
+  std::set<int> used;
+  for (const recorded::Face& f : e.faces) used.insert(f.vertices.begin(), f.vertices.end());
+  if (!same_numbers(e.vertices, {used.begin(), used.end()})) contradiction("\"vertices\" is " + list_of(e.vertices) + ", but the faces have " + list_of({used.begin(), used.end()}) + ".");
+}
+
+void RecordCheck::judge(const recorded::FaceChosen& e) { chosen_.insert(e.face); }
+
+/// The new vertex is the one asked for last. The horizon is a loop, each edge as a removed face has it, and a new face stands on each.
+void RecordCheck::judge(const recorded::PolytopeGrown& e) {
+  if (e.vertex != newest_) contradiction("Vertex " + std::to_string(e.vertex) + " is said to join, but the last one asked for is " + std::to_string(newest_) + ".");
+  for (const recorded::Face& f : e.added)
+    if (!holds(f.vertices, e.vertex)) contradiction("The new face " + std::to_string(f.face) + ", " + list_of(f.vertices) + ", does not have the new vertex, " + std::to_string(e.vertex) + ".");
+  if (const std::size_t right = c_.dimension == 3 ? e.added.size() : c_.dimension == 2 ? 1 : 0; e.horizon.size() != right)
+    contradiction("The horizon has " + std::to_string(e.horizon.size()) + " edges; expected are " + std::to_string(right) + (c_.dimension == 3 ? ", one for each face added." : "."));
+  for (std::size_t i = 0; i < e.horizon.size() && c_.dimension == 3; ++i) {
+    const auto [from, to] = e.horizon[i];
+    const bool loop = e.horizon[(i + 1) % e.horizon.size()][0] == to;
+    const bool of_removed = std::any_of(e.removed.begin(), e.removed.end(), [&, from = from, to = to](int number) {
+      const std::vector<int>& v = faces_[number].vertices;
+      return v.size() == 3 && ((v[0] == from && v[1] == to) || (v[1] == from && v[2] == to) || (v[2] == from && v[0] == to));
+    });
+    if (!loop || !of_removed)
+      contradiction("The edge from " + std::to_string(from) + " to " + std::to_string(to) + " of the horizon " + (loop ? "is of no face removed, this way round." : "is not followed by one that starts where it ends."));
+  }
+  add(e.added);
+}
+
+/// A face once chosen: the best one, which a later step may have removed. (What shows the bodies apart before there is a polytope to report is none of them.)
+void RecordCheck::judge(const recorded::EpaEnded& e) {
+  statuses_.emplace(epa_status_names[static_cast<std::size_t>(e.status)]);
+  if (e.face < 0 || faces_.empty()) return;
+  if (!chosen_.contains(e.face)) contradiction("EPA ends at face " + std::to_string(e.face) + ", which was never chosen.");
+  else if (const AnyVector& n = faces_[e.face].normal; (n - e.normal).norm() > 1e-9) contradiction("EPA ends at face " + std::to_string(e.face) + " with the normal " + text_of(e.normal) + ", but the face's is " + text_of(n) + ".");
+  faces_.clear(), chosen_.clear();
+}
+
+void RecordCheck::judge(const recorded::PortalFound& e) {
+  if (static_cast<int>(e.vertices.size()) != c_.dimension) contradiction("The portal " + list_of(e.vertices) + " has " + std::to_string(e.vertices.size()) + " vertices instead of " + std::to_string(c_.dimension) + ".");
+}
+void RecordCheck::judge(const recorded::MprEnded& e) { statuses_.emplace(mpr_status_names[static_cast<std::size_t>(e.status)]); }
+
+/// A pair of edges of which one has no faces beside it is an axis both ways.
+void RecordCheck::judge(const recorded::SatBegan& e) { axes_ = {e.faces_a, e.faces_b, 2 * e.edge_pairs}; }
+void RecordCheck::judge(const recorded::AxisTested& e) {
+  if (--axes_[static_cast<std::size_t>(e.source)] < 0) contradicts_beginning("More axes of \"" + std::string(axis_source_names[static_cast<std::size_t>(e.source)]) + "\" are tested than there are said to be.");
+}
+void RecordCheck::judge(const recorded::SatEnded& e) { statuses_.emplace(sat_status_names[static_cast<std::size_t>(e.status)]); }
+
+/// With p = corner + s edge_a - t edge_b, the ends of both parameters reach as far as the difference of the cores does, along its edges and the axes.
+void RecordCheck::judge(const recorded::ClosedFormBegan& e) {
+  segments_ = e;
+  if (!c_.has_supports || !c_.cores) return;
+  std::vector<AnyVector> directions;
+  for (int i = 0; i < c_.dimension; ++i) directions.emplace_back(AnyVector::Unit(c_.dimension, i));
+  for (const AnyVector* edge : {&e.edge_a, &e.edge_b})
+    if (!edge->isZero(0) && edge->allFinite()) directions.push_back(edge->stableNormalized());
+  for (const AnyVector& d : directions)
+    for (const double sign : {1.0, -1.0}) {
+      const double reach = sign * d.dot(e.corner) + std::max(0.0, sign * d.dot(e.edge_a)) + std::max(0.0, -sign * d.dot(e.edge_b)), right = c_.height(sign * d);
+      if (std::abs(reach - right) <= std::max(c_.tolerance, 1e-7 * c_.size)) continue;
+      contradiction("The segments' difference reaches " + text_of(reach) + " along " + text_of(AnyVector(sign * d)) + ", but that of the bodies' cores " + text_of(right) + ".");
+      return;
+    }
+}
+
+/// Between the nearest points of two lines is a way across both.
+void RecordCheck::judge(const recorded::LinesSolved& e) {
+  if (!segments_ || (!std::isfinite(e.s) && !std::isfinite(e.t))) return;
+  AnyVector between = segments_->corner;
+  if (std::isfinite(e.s)) between += e.s * segments_->edge_a;
+  if (std::isfinite(e.t)) between -= e.t * segments_->edge_b;
+  for (const auto& [parameter, edge] : {std::pair(e.s, &segments_->edge_a), std::pair(e.t, &segments_->edge_b)})
+    if (std::isfinite(parameter) && std::abs(between.dot(*edge)) > std::max(c_.tolerance, 1e-7 * c_.size) * edge->norm())
+      contradiction("s = " + text_of(e.s) + " and t = " + text_of(e.t) + " are not where the lines are nearest: the way between is " + text_of(between) + ", not across the edge " + text_of(*edge) + ".");
+}
+
+void RecordCheck::judge(const recorded::ClosedFormEnded& e) { ++iterations_, statuses_.emplace(closed_form_status_names[static_cast<std::size_t>(e.status)]); }
+
+/// The answer's counts and its status are those of the phases. (A common point is looked for without a trace.)
+void RecordCheck::result() {
+  const Result& r = c_.recording.result;
+  if (!ours_ || statuses_.empty()) return;
+  if (!statuses_.contains(r.status)) contradiction("The result's status is \"" + r.status + "\", with which no phase ended.");
+  if (r.iterations != iterations_) contradiction("The result counts " + std::to_string(r.iterations) + " iterations, the phases " + std::to_string(iterations_) + ".");
+  if (r.support_calls < supports_) contradiction("The result counts " + std::to_string(r.support_calls) + " support calls, but " + std::to_string(supports_) + " were made.");
+}
+
+}  // namespace gjkdbg
