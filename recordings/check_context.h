@@ -165,6 +165,7 @@ class EpaCheck {
     std::vector<int> vertices;
     AnyVector normal;      ///< out of the polytope, ours
     double distance = 0;   ///< ours
+    double uncertain = 0;  ///< how far off the plane a point of the polytope must be to have a side
     bool usable = true;
   };
   void add(const recorded::Face& f);

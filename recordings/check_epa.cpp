@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "recordings/check_context.h"
@@ -64,18 +65,22 @@ void EpaCheck::add(const recorded::Face& f) {
     } else {
       face.normal /= area;
       face.distance = face.normal.dot(w[0]);
+      // Corners known to eps * size tilt it by that over its least height; as far off as the polytope reaches.
+      const double height = c_.dimension == 3 ? area / longest : c_.dimension == 2 ? area : c_.size;
+      face.uncertain = 4 * std::numeric_limits<double>::epsilon() * c_.size * (c_.size / height);
     }
   }
   faces_[f.face] = face;
 }
 
-/// Turns new faces outwards, and compares with the normals the recording gives.
+/// Turns new faces outwards, and compares with the normals the recording gives. Of a polytope so flat that its corners do not tell the sides apart these count.
 void EpaCheck::orient(const std::vector<recorded::Face>& added) {
   const AnyVector inside = centre();
   for (const auto& f : added) {
     Face& face = faces_[f.face];
     if (!face.usable) continue;
-    if (face.distance < face.normal.dot(inside)) face.normal = -face.normal, face.distance = -face.distance;
+    const double depth = face.distance - face.normal.dot(inside);
+    if (std::abs(depth) <= face.uncertain ? face.normal.dot(f.normal) < 0 : depth < 0) face.normal = -face.normal, face.distance = -face.distance;
     if (check_normal(f.face, f.normal)) check_plane(f.face, f.normal, f.distance);
   }
 }

@@ -35,6 +35,17 @@ TEST(Check, OurOwnRecordingsOfTheGalleryAreClean) {
         }
 }
 
+/// A hull 2.3e-9 deep in a cone 2,000 wide: the polytope is 1e-12 of its size thick, and the corners of its faces do not tell which way is out.
+TEST(Check, SliversOfEpaAreClean) {
+  const SceneFile scene = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "bodies": [
+    {"shape": {"type": "hull", "points": [[1.4978637168373088, 5.40018749880125, -27.381588012171562], [-13.773202500515403, 43.39283107051897, -16.936332436538386],
+                                          [-25.68657521122911, -31.818092404383663, -54.3201256887751], [-41.35216958486282, -49.073385174348786, 66.77040544929957]]},
+     "pose": {"position": [0, 0, 0], "rotation": {"axis": [1.3522100961327492, 0.2604920112458137, 0.7301164645809861], "angle": 90}}},
+    {"shape": {"type": "cone", "radius": 2007.7253138390229, "half_height": 2007.7253138390229, "axis": "x"},
+     "pose": {"position": [-779.6359209099871, -382.04428673898946, -562.6793925857306]}}]})", {});
+  EXPECT_EQ(text(check(record(scene))), "");
+}
+
 /// Written, read, run again, checked and shown: every scene by every method that answers it.
 TEST(Check, EveryMethodsRecordingsAreReadBackAndClean) {
   const Gallery gallery = read_gallery(GJKDBG_GALLERY);
