@@ -55,7 +55,8 @@ struct SimulationCheck {
     return m;
   }
 
-  /// Over a step energy may change by what its order leaves, of the fall m (g h)^2 a body, and restitution only takes.
+  /// Over a step energy may change by what its order leaves, of the fall m (g h)^2 a body, and restitution only takes. Bodies inside each
+  /// other are put apart, which may lift them by as much as they are deep.
   void states() const {
     const SceneMotion& m = motion;
     double fall = 0, total = 0;
@@ -66,23 +67,26 @@ struct SimulationCheck {
     }
     const recorded::State* before = nullptr;
     bool touched = false;
+    double deepest = 0;
     for (std::size_t i = 0; i < c.recording.events.size(); ++i) {
       const Event& event = c.recording.events[i];
       c.step = i;
-      touched = touched || std::holds_alternative<recorded::ContactFound>(event);
-      if (const auto* contact = std::get_if<recorded::ContactFound>(&event); contact && exists(contact->pair)) sinking(*contact);
+      if (const auto* contact = std::get_if<recorded::ContactFound>(&event)) {
+        touched = true, deepest = std::max(deepest, contact->depth);
+        if (exists(contact->pair)) sinking(*contact);
+      }
       const auto* now = std::get_if<recorded::State>(&event);
       if (!now) continue;
       if (before) {
         const double speed = std::sqrt(std::max(0.0, 2 * std::abs(before->energy) * std::max(total, 1e-300)));
-        if (now->energy > before->energy + 4 * fall + 1e-6 * std::abs(before->energy) + (touched ? m.gravity.norm() * total * 0.01 * c.size : 0))
+        if (now->energy > before->energy + 4 * fall + 1e-6 * std::abs(before->energy) + (touched ? m.gravity.norm() * total * (0.01 * c.size + deepest) : 0))
           c.find("energy-gained", "Energy rose from " + text_of(before->energy) + " to " + text_of(now->energy) + " between times " + text_of(before->time) + " and " + text_of(now->time) + ".");
         const AnyVector expected = before->momentum + total * m.time_step * m.gravity;
         if (!(walls && touched) && (now->momentum - expected).norm() > 1e-9 * (speed + total * m.gravity.norm() * m.time_step) + 1e-12)
           c.find("momentum-lost", "Momentum went from " + text_of(before->momentum) + " to " + text_of(now->momentum) + ", expected " + text_of(expected) + ": nothing but gravity acts on these bodies from outside.");
       }
       before = now;
-      touched = false;
+      touched = false, deepest = 0;
     }
   }
 
