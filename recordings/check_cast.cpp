@@ -176,6 +176,63 @@ struct CastCheck {
     c.find("normal-against-approach", "The bodies come together against the normal " + text_of(*result.normal) + ": their velocity along it is " + text_of(approach) + ". It should point from the first body to the second.");
   }
 
+  /// From one response to the next bodies move as they did; at one, those that meet get the velocities it names, the second by the impulse more.
+  void responses() const {
+    std::vector<Body> bodies = scene.bodies;
+    double time = 0;
+    for (std::size_t i = 0; i < c.recording.events.size(); ++i) {
+      c.step = i;
+      if (const auto* e = std::get_if<recorded::ImpulseApplied>(&c.recording.events[i])) {
+        advance(bodies, std::exchange(time, e->time), e->time);
+        respond(bodies, *e);
+      } else if (const auto* state = std::get_if<recorded::State>(&c.recording.events[i])) {
+        advance(bodies, std::exchange(time, state->time), state->time);
+        as_said(bodies, *state);
+      }
+    }
+  }
+
+  void advance(std::vector<Body>& bodies, double from, double to) const {
+    if (!(to >= from && to <= 1)) c.find("wrong-time", "The time " + text_of(to) + " comes after " + text_of(from) + ", in an interval that ends at 1.");
+    for (Body& body : bodies) body = moved(body, to - from, scene.dimension);
+  }
+
+  void respond(std::vector<Body>& bodies, const recorded::ImpulseApplied& e) const {
+    if (!exists(e.pair) || e.velocities_before.size() != 2 || e.velocities_after.size() != 2) return c.find("wrong-pair", "An impulse is between two bodies of the scene, with the velocities of both before and after.");
+    for (std::size_t k = 0; k < 2; ++k) {
+      AnyVector& v = bodies[static_cast<std::size_t>(e.pair[k])].motion->velocity;
+      if ((v - e.velocities_before[k]).norm() > 1e-9 * c.size) c.find("wrong-state", "Body " + std::to_string(e.pair[k]) + " comes with the velocity " + text_of(e.velocities_before[k]) + ", expected " + text_of(v) + ".");
+      v = e.velocities_after[k];
+    }
+    const AnyVector change = e.velocities_after[1] - e.velocities_before[1];
+    if ((change - e.impulse).norm() > 1e-9 * c.size) c.find("wrong-state", "The impulse " + text_of(e.impulse) + " changes the second body's velocity by " + text_of(change) + ".");
+  }
+
+  void as_said(std::vector<Body>& bodies, const recorded::State& state) const {
+    if (state.bodies.size() != bodies.size()) return c.find("wrong-state", "There are " + std::to_string(state.bodies.size()) + " bodies; the scene has " + std::to_string(bodies.size()) + ".");
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const recorded::BodyState& said = state.bodies[i];
+      Body& body = bodies[i];
+      if ((said.position - body.pose.position).norm() > limit) c.find("wrong-state", "Body " + std::to_string(i) + " is at " + text_of(said.position) + " at time " + text_of(state.time) + ", expected " + text_of(body.pose.position) + ".");
+      if ((said.velocity - body.motion->velocity).norm() > 1e-9 * c.size) c.find("wrong-state", "Body " + std::to_string(i) + " has the velocity " + text_of(said.velocity) + " at time " + text_of(state.time) + ", expected " + text_of(body.motion->velocity) + ".");
+      turned(i, said.orientation, said.angular_velocity, body, state.time);
+    }
+  }
+
+  /// Nothing but their own spin turns the bodies of a cast.
+  void turned(std::size_t i, const std::vector<double>& orientation, const std::vector<double>& spin, const Body& body, double time) const {
+    const std::string who = "Body " + std::to_string(i) + " at time " + text_of(time) + " ";
+    const AnyVector& own = body.motion->angular_velocity;  // empty: none
+    bool same_spin = spin.size() == (scene.dimension == 3 ? 3u : scene.dimension == 2 ? 1u : 0u);
+    for (std::size_t k = 0; same_spin && k < spin.size(); ++k) same_spin = std::abs(spin[k] - (own.size() > 0 ? own[static_cast<Eigen::Index>(k)] : 0)) <= 1e-9 * (1 + std::abs(spin[k]));
+    if (!same_spin) c.find("wrong-state", who + "does not have the angular velocity of the scene.");
+    Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+    if (orientation.size() == 4) q = Eigen::Quaterniond(orientation[0], orientation[1], orientation[2], orientation[3]);
+    const AnyMatrix matrix = q.toRotationMatrix().topLeftCorner(scene.dimension, scene.dimension);
+    if (orientation.size() != 4 || std::abs(q.norm() - 1) > 1e-6) c.find("wrong-state", who + "has no orientation: that is a quaternion of length 1.");
+    else if ((matrix - body.pose.matrix).norm() > 1e-6) c.find("wrong-state", who + "is not turned as its motion turns it.");
+  }
+
   /// After the last response bodies go straight on, unless they turn, and end as they moved then.
   void final_places() const {
     const recorded::State* last = nullptr;
@@ -190,6 +247,7 @@ struct CastCheck {
       const auto& from = last->bodies[i];
       const FinalState& to = (*result.bodies)[i];
       if ((to.velocity - from.velocity).norm() > 1e-9 * from.velocity.norm()) c.find("wrong-state", "Body " + std::to_string(i) + " ends with the velocity " + text_of(to.velocity) + ", but left its last impact with " + text_of(from.velocity) + ".");
+      turned(i, to.orientation, to.angular_velocity, moved(scene.bodies[i], end, scene.dimension), end);
       const AnyVector expected = from.position + (end - last->time) * from.velocity;
       if ((to.position - expected).norm() > limit) c.find("wrong-state", "Body " + std::to_string(i) + " ends at " + text_of(to.position) + ", expected " + text_of(expected) + ".");
     }
@@ -205,6 +263,7 @@ void check_cast(CheckContext& c) {
   judge.approach();
   judge.tunnelling();
   judge.impact();
+  judge.responses();
   judge.final_places();
 }
 

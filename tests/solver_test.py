@@ -146,6 +146,15 @@ EDITS = [
     ("box-contact-edge", lambda r: r["result"]["contacts"].clear(), "wrong-contact"),
     ("box-contact-patch", lambda r: [p.__setitem__(0, p[0] + 9) for c in r["result"]["contacts"][:1] for p in (c["point_a"], c["point_b"])], "wrong-contact"),
     ("level-mesh", lambda r: r["result"].update(witness_a=[0, 0, 9]), "wrong-witness"),
+    # Between and at the responses of a cast.
+    ("cast-bounce", lambda r: at(r, "state", 1)["bodies"][0]["position"].__setitem__(0, 1.0), "wrong-state"),
+    ("cast-bounce", lambda r: at(r, "state")["bodies"][0]["velocity"].__setitem__(1, 3.0), "wrong-state"),
+    ("cast-bounce", lambda r: at(r, "state")["bodies"][1].update(orientation=[0, 1, 0, 0]), "wrong-state"),
+    ("cast-bounce", lambda r: at(r, "state")["bodies"][1].update(orientation=[2, 0, 0, 0]), "wrong-state"),
+    ("cast-bounce", lambda r: at(r, "state")["bodies"][0].update(angular_velocity=[1]), "wrong-state"),
+    ("cast-bounce", lambda r: at(r, "impulse_applied", 1)["velocities_before"][0].__setitem__(1, 4.0), "wrong-state"),
+    ("cast-bounce", lambda r: at(r, "impulse_applied", 1)["impulse"].__setitem__(0, 1.0), "wrong-state"),
+    ("cast-bounce", lambda r: r["result"]["bodies"][2].update(orientation=[0, 0, 0, 1]), "wrong-state"),
 ]
 
 
