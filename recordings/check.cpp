@@ -35,6 +35,14 @@ std::string text_of(const AnyVector& v) {
   return out + ")";
 }
 
+std::string list_of(const std::vector<int>& numbers) {
+  std::string out = "[";
+  for (std::size_t i = 0; i < numbers.size(); ++i) out += (i > 0 ? ", " : "") + std::to_string(numbers[i]);
+  return out + "]";
+}
+
+bool contains(const std::vector<int>& list, int x) { return std::find(list.begin(), list.end(), x) != list.end(); }
+
 CheckContext::CheckContext(const Recording& r) : recording(r), dimension(r.scene.scene.dimension), inferred(r.generator.starts_with("a solver under ")) {
   const auto& bodies = r.scene.scene.bodies;
   const bool moves = r.scene.scene.query == Query::cast || r.scene.scene.query == Query::simulate;

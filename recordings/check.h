@@ -14,7 +14,7 @@ namespace gjkdbg {
 
 struct Finding {
   std::size_t step = 0;  ///< index of the event; of the last one when the result is meant
-  enum class Severity { error, warning } severity = Severity::error;  ///< warning: it merely costs
+  enum class Severity { error, warning } severity = Severity::error;  ///< warning: it merely costs, or is merely written wrongly
   std::string code;
   std::string message;  ///< what is wrong, with the numbers, what was expected, the usual cause
 };

@@ -20,6 +20,8 @@ NearestPoint nearest_point(const std::vector<AnyVector>& points);
 
 std::string text_of(double x);
 std::string text_of(const AnyVector& v);
+std::string list_of(const std::vector<int>& numbers);
+bool contains(const std::vector<int>& list, int x);
 
 class CheckContext {
  public:
@@ -188,15 +190,13 @@ class EpaCheck {
 /// What our own recordings say twice: see check_record.cpp.
 class RecordCheck {
  public:
-  explicit RecordCheck(CheckContext& context);
+  explicit RecordCheck(CheckContext& context) : c_(context), ours_(context.recording.generator.starts_with("gjkdbg ")) {}
   /// After every other check of the event: what those find is nearer to the cause.
   void operator()(const Event& event);
   void result();
 
  private:
   void contradiction(const std::string& message);
-  void contradicts_beginning(const std::string& message);
-  void counted(int iteration);
   void add(const std::vector<recorded::Face>& faces);
   void judge(const recorded::GjkBegan& e);
   void judge(const recorded::VertexKept& e);
@@ -219,10 +219,8 @@ class RecordCheck {
   void judge(const E&) {}
 
   CheckContext& c_;
-  const bool ours_, moves_;
-  std::size_t began_ = 0;              ///< the step the phase began at
-  AnyVector first_;                    ///< the direction GJK says it begins with, until it has
-  std::optional<int> last_iteration_;  ///< of the phase
+  const bool ours_;
+  AnyVector first_;  ///< the direction GJK says it begins with, until it has
   int iterations_ = 0, supports_ = 0, newest_ = -1;
   std::set<std::string> statuses_;            ///< of the phases that ended
   std::vector<int> simplex_, asked_;          ///< GJK's: kept, and asked for since; newest first

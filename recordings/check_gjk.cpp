@@ -8,12 +8,6 @@
 namespace gjkdbg {
 namespace {
 
-std::string list_of(const std::vector<int>& numbers) {
-  std::string out = "[";
-  for (std::size_t i = 0; i < numbers.size(); ++i) out += (i > 0 ? ", " : "") + std::to_string(numbers[i]);
-  return out + "]";
-}
-
 /// The bits of a vector, signs of zeros aside: equal keys, equal numbers.
 std::string key_of(const AnyVector& v) {
   std::string key;
@@ -23,8 +17,6 @@ std::string key_of(const AnyVector& v) {
   }
   return key;
 }
-
-bool contains(const std::vector<int>& list, int x) { return std::find(list.begin(), list.end(), x) != list.end(); }
 
 }  // namespace
 

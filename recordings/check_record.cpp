@@ -8,14 +8,6 @@
 namespace gjkdbg {
 namespace {
 
-std::string list_of(const std::vector<int>& numbers) {
-  std::string out = "[";
-  for (std::size_t i = 0; i < numbers.size(); ++i) out += (i > 0 ? ", " : "") + std::to_string(numbers[i]);
-  return out + "]";
-}
-
-bool holds(const std::vector<int>& list, int number) { return std::find(list.begin(), list.end(), number) != list.end(); }
-
 bool same_numbers(std::vector<int> x, std::vector<int> y) {
   std::sort(x.begin(), x.end()), std::sort(y.begin(), y.end());
   return x == y;
@@ -23,38 +15,18 @@ bool same_numbers(std::vector<int> x, std::vector<int> y) {
 
 }  // namespace
 
-RecordCheck::RecordCheck(CheckContext& context)
-    : c_(context), ours_(context.recording.generator.starts_with("gjkdbg ")), moves_(context.recording.scene.scene.query >= Query::cast) {}
-
-void RecordCheck::contradiction(const std::string& message) { c_.find("inconsistent", message + " The recording contradicts itself: it was changed, or written wrongly."); }
-
-/// Of what the phase began with.
-void RecordCheck::contradicts_beginning(const std::string& message) {
-  const std::size_t here = std::exchange(c_.step, began_);
-  contradiction(message);
-  c_.step = here;
+void RecordCheck::contradiction(const std::string& message) {
+  c_.find("inconsistent", message + " The recording contradicts itself: it was changed, or written wrongly.", Finding::Severity::warning);
 }
 
 void RecordCheck::operator()(const Event& event) {
   if (!ours_) return;
-  if (kind_name(event).ends_with("_began")) began_ = c_.step;
   std::visit(
       [this](const auto& e) {
-        if constexpr (requires { e.iteration; })
-          if (!moves_) counted(e.iteration);  // a cast's steps hold runs of their own
         if constexpr (requires { e.iteration; e.status; }) iterations_ += e.iteration;
         judge(e);
       },
       event);
-  if (kind_name(event).ends_with("_ended")) last_iteration_.reset();
-}
-
-/// Iterations are counted from 0, or from 1, phase by phase.
-void RecordCheck::counted(int iteration) {
-  const int least = last_iteration_.value_or(0);
-  if (iteration < least || iteration > least + 1)
-    contradiction("The iteration is given as " + std::to_string(iteration) + (last_iteration_ ? ", after " + std::to_string(*last_iteration_) : ", where a phase begins") + ".");
-  last_iteration_ = iteration;
 }
 
 void RecordCheck::judge(const recorded::GjkBegan& e) { simplex_.clear(), asked_.clear(), first_ = e.direction; }
@@ -65,7 +37,7 @@ void RecordCheck::judge(const recorded::SupportQueried& e) {
   newest_ = e.vertex;
   if (e.phase != Phase::gjk) return;
   const AnyVector first = std::exchange(first_, AnyVector());
-  if (asked_.empty() && first.size() > 0 && first != e.direction) contradicts_beginning("The first direction is " + text_of(e.direction) + ", but GJK began with " + text_of(first) + ".");
+  if (asked_.empty() && first.size() > 0 && first != e.direction) contradiction("The first direction is " + text_of(e.direction) + ", but GJK began with " + text_of(first) + ".");
   asked_.insert(asked_.begin(), e.vertex);
 }
 
@@ -74,11 +46,11 @@ void RecordCheck::judge(const recorded::SimplexReduced& e) {
   std::vector<int> right = std::exchange(asked_, {});
   right.insert(right.end(), simplex_.begin(), simplex_.end());
   const bool some = c_.recording.settings.name == MethodName::gjk_accelerated;
-  const bool known = some ? std::all_of(e.before.begin(), e.before.end(), [&](int v) { return holds(right, v); }) : e.before == right;
+  const bool known = some ? std::all_of(e.before.begin(), e.before.end(), [&](int v) { return contains(right, v); }) : e.before == right;
   if (!known || std::set<int>(e.before.begin(), e.before.end()).size() != e.before.size())
     contradiction("\"before\" is " + list_of(e.before) + ", but the vertices kept and those asked for since are " + list_of(right) + ".");
   for (const int v : e.region)
-    if (!holds(e.before, v)) contradiction("Vertex " + std::to_string(v) + " was kept, but \"before\" does not hold it.");
+    if (!contains(e.before, v)) contradiction("Vertex " + std::to_string(v) + " was kept, but \"before\" does not hold it.");
   if (e.closest.size() > 0 && e.barycentric.size() != e.region.size()) contradiction("There are " + std::to_string(e.barycentric.size()) + " weights for " + std::to_string(e.region.size()) + " vertices.");
   simplex_ = e.region;
 }
@@ -116,7 +88,7 @@ void RecordCheck::judge(const recorded::FaceChosen& e) { chosen_.insert(e.face);
 void RecordCheck::judge(const recorded::PolytopeGrown& e) {
   if (e.vertex != newest_) contradiction("Vertex " + std::to_string(e.vertex) + " is said to join, but the last one asked for is " + std::to_string(newest_) + ".");
   for (const recorded::Face& f : e.added)
-    if (!holds(f.vertices, e.vertex)) contradiction("The new face " + std::to_string(f.face) + ", " + list_of(f.vertices) + ", does not have the new vertex, " + std::to_string(e.vertex) + ".");
+    if (!contains(f.vertices, e.vertex)) contradiction("The new face " + std::to_string(f.face) + ", " + list_of(f.vertices) + ", does not have the new vertex, " + std::to_string(e.vertex) + ".");
   if (const std::size_t right = c_.dimension == 3 ? e.added.size() : c_.dimension == 2 ? 1 : 0; e.horizon.size() != right)
     contradiction("The horizon has " + std::to_string(e.horizon.size()) + " edges; expected are " + std::to_string(right) + (c_.dimension == 3 ? ", one for each face added." : "."));
   for (std::size_t i = 0; i < e.horizon.size() && c_.dimension == 3; ++i) {
@@ -149,7 +121,7 @@ void RecordCheck::judge(const recorded::MprEnded& e) { statuses_.emplace(mpr_sta
 /// A pair of edges of which one has no faces beside it is an axis both ways.
 void RecordCheck::judge(const recorded::SatBegan& e) { axes_ = {e.faces_a, e.faces_b, 2 * e.edge_pairs}; }
 void RecordCheck::judge(const recorded::AxisTested& e) {
-  if (--axes_[static_cast<std::size_t>(e.source)] < 0) contradicts_beginning("More axes of \"" + std::string(axis_source_names[static_cast<std::size_t>(e.source)]) + "\" are tested than there are said to be.");
+  if (--axes_[static_cast<std::size_t>(e.source)] < 0) contradiction("More axes of \"" + std::string(axis_source_names[static_cast<std::size_t>(e.source)]) + "\" are tested than there are said to be.");
 }
 void RecordCheck::judge(const recorded::SatEnded& e) { statuses_.emplace(sat_status_names[static_cast<std::size_t>(e.status)]); }
 
