@@ -70,8 +70,7 @@ struct Apply {
 
   void operator()(const recorded::PolytopeSeeded& e) {
     frame.stage = Frame::Stage::epa;
-    frame.simplex.clear(), frame.seeds.clear(), frame.barycentric.clear();
-    frame.closest.reset(), frame.lower_bound.reset(), frame.upper_bound.reset();
+    frame.simplex.clear(), frame.seeds.clear(), frame.barycentric.clear(), frame.closest.reset();
     frame.iteration = 0;
     frame.faces.clear();
     add(e.faces);
@@ -94,8 +93,10 @@ struct Apply {
     }
     frame.horizon = e.horizon;
     add(e.added);
-    // The depth's bounds, turned into those of the signed distance.
-    bounds(-e.upper_bound, -e.lower_bound);
+    // The depth's bounds, turned into those of the signed distance. What GJK knew holds on.
+    const double lower = std::max(-e.upper_bound, frame.lower_bound.value_or(-e.upper_bound)), upper = std::min(-e.lower_bound, frame.upper_bound.value_or(-e.lower_bound));
+    if (lower <= upper) bounds(lower, upper);
+    else bounds(-e.upper_bound, -e.lower_bound);
   }
 
   void operator()(const recorded::EpaEnded& e) {

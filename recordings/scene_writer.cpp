@@ -126,7 +126,10 @@ Json json_of(const Body& body, int dimension, MeshNotation notation) {
   if (!body.name.empty()) out["name"] = body.name;
   out["shape"] = ShapeWriter{dimension, notation}.write(body.shape);
   out["pose"] = {{"position", json_of(body.pose.position)}};
-  if (const Json rotation = std::visit(RotationWriter{}, body.pose.rotation); !rotation.is_null()) out["pose"]["rotation"] = rotation;
+  // Bodies that were turned in memory have the rotation as numbers only.
+  const bool as_given = resolve(body.pose.rotation, dimension).matrix == body.pose.matrix;
+  const Rotation written = as_given ? body.pose.rotation : Rotation(RotationMatrix{body.pose.matrix});
+  if (const Json rotation = std::visit(RotationWriter{}, written); !rotation.is_null()) out["pose"]["rotation"] = rotation;
   if (body.motion) write_motion(out, *body.motion);
   return out;
 }

@@ -137,8 +137,15 @@ void App::banner(const Area& area) {
   const std::string& text = error ? message : notice;
   const float wrap = area.width - theme.px(60);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
-  ImGui::PushStyleColor(ImGuiCol_ChildBg, vec((error ? theme.palette.newest : theme.palette.support).shaded(-0.15)));
-  begin_area("banner", {area.x + (area.width - std::min(area.width, size.x + theme.px(60))) / 2, area.y, std::min(area.width, size.x + theme.px(60)), size.y + theme.px(22)});
+  const float width = std::min(area.width, size.x + theme.px(60)), height = size.y + theme.px(22), x = area.x + (area.width - width) / 2;
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, ImVec4());
+  begin_area("banner", {x, area.y, width, height});
+  // In its own draw list: ImGui may draw a child's background with the parent's, below what the views have drawn.
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->PushClipRectFullScreen();
+  draw->AddRectFilled({x, area.y}, {x + width, area.y + height}, packed((error ? theme.palette.newest : theme.palette.support).shaded(-0.15)), theme.px(8));
+  draw->PopClipRect();
+  ImGui::SetCursorPos({(width - size.x) / 2, (height - size.y) / 2});
   ImGui::PushStyleColor(ImGuiCol_Text, vec(rgb(0xffffff)));
   ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + wrap);
   ImGui::TextUnformatted(text.c_str());
@@ -216,8 +223,12 @@ void App::top_bar(const Area& area) {
   if (button("Keys", "All keys (?)")) show_keys = !show_keys;
   ImGui::PopStyleColor();
   if (session.is_open()) {
-    const bool overlap = session.recording().result.intersecting;
-    const std::string result = result_text(session.recording());
+    const bool simulated = session.scene().scene.query == Query::simulate;
+    const auto& findings = session.findings();
+    const bool open = undecided(session.recording().result), wrong = !open && std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Finding::Severity::error; });
+    const bool neutral = !wrong && (simulated || open);
+    const std::string result = (wrong ? "wrong: " : "") + result_text(session.recording());
+    const Colour tone = neutral ? theme.palette.text_soft : wrong || session.recording().result.intersecting ? theme.palette.newest : theme.palette.support;
     std::string method = method_text(session.recording().settings) + "  \xC2\xB7  " + std::string(query_names[static_cast<std::size_t>(session.scene().scene.query)]);
     const auto width = [&](const std::string& text) { return theme.small->CalcTextSizeA(theme.small->FontSize, 1e6f, 0, text.c_str()).x + theme.px(22); };
     const float here = ImGui::GetItemRectMax().x + theme.px(16), title = ImGui::CalcTextSize(session.title().c_str()).x, middle = area.width / 2 - title / 2;
@@ -233,7 +244,7 @@ void App::top_bar(const Area& area) {
     ImGui::SameLine(area.width - chips - theme.px(16));
     chip(theme, method, theme.palette.accent);
     ImGui::SameLine(0, theme.px(8));
-    chip(theme, result, overlap ? theme.palette.newest : theme.palette.support);
+    chip(theme, result, tone);
   }
   ImGui::EndChild();
 }

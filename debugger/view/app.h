@@ -124,6 +124,8 @@ Colour event_colour(const Palette& palette, const Event& event);
 const char* short_kind(const Event& event);
 /// The answer in a few words: "overlapping, depth 0.1".
 std::string result_text(const Recording& recording);
+/// Whether a limit came before an answer: the bounds leave both open.
+bool undecided(const Result& result);
 /// "gjk · signed-volumes · double"
 std::string method_text(const Settings& settings);
 /// Where `text` is found: a condition if it compares something, else a part of the event's name and summary.

@@ -45,6 +45,7 @@ std::string feature_name(std::size_t vertices) {
 std::string sentence(GjkStatus status, const recorded::GjkEnded& e) {
   switch (status) {
     case GjkStatus::converged:
+      if (!std::isfinite(e.lower_bound) || !std::isfinite(e.upper_bound)) return "The search ends, and the bodies are called apart. How far is not said here.";
       return "No support lies nearer the origin than v: the bounds " + short_number(e.lower_bound) + " and " + short_number(e.upper_bound) + " have met. The bodies' signed distance is known.";
     case GjkStatus::separated: return "The plane of the last support has all of A - B on its far side, so the bodies are apart. Only yes or no was asked, and this is the proof.";
     case GjkStatus::within_radius: return "The cores are apart, but nearer than the radii around them: the bodies overlap, and no more was asked.";
@@ -107,11 +108,13 @@ struct Explain {
     return text;
   }
 
+  bool foreign() const { return !recording.generator.starts_with("gjkdbg "); }
+
   Explanation operator()(const recorded::GjkBegan& e) const {
     if (frame.step + 1 < recording.events.size() && std::holds_alternative<recorded::VertexKept>(recording.events[frame.step + 1]))
       return {"GJK begins, warm", "It starts from the simplex the last run on these bodies ended with. If they have moved little, it is nearly right already."};
     return {"GJK begins", "The search starts along d = " + short_vector(e.direction) +
-                              (recording.settings.initial_direction ? ", as the method says." : ", from A towards B. Any direction but zero would do.")};
+                              (recording.settings.initial_direction ? ", as the method says." : foreign() ? ", as the solver chose. Any direction but zero would do." : ", from A towards B. Any direction but zero would do.")};
   }
 
   Explanation operator()(const recorded::VertexKept& e) const {
@@ -125,7 +128,7 @@ struct Explain {
       return {"Support for the portal", where + (e.direction.dot(e.w) < 0 ? "It lies short of the origin: its plane proves the bodies apart."
                                                                          : "It lies at or past the origin along d, so this plane does not separate the bodies.")};
     if (e.phase == Phase::sat) return {"Support along an axis", where + "How far it reaches past the origin is how far the bodies overlap along this axis."};
-    if (e.phase == Phase::epa) return {"Support beyond the chosen face", where + "If it lies farther out than the face, the polytope grows to it; if not, the face is the boundary."};
+    if (e.phase == Phase::epa) return {"Support across the chosen face", where + reach_across(e)};
     const double along = e.direction.dot(e.w) / e.direction.norm();
     if (frame.simplex.size() <= 1) return {"First support", where + "One corner of the difference is a start: the simplex is this point."};
     const auto [title, why] = way(e.direction);
@@ -133,8 +136,20 @@ struct Explain {
                                                               : "It lies at or past the origin along d, so nothing is proven yet.")};
   }
 
+  /// How far EPA's support reaches, against the face chosen before it, and what comes of it.
+  std::string reach_across(const recorded::SupportQueried& e) const {
+    const auto* chosen = frame.step > 0 ? std::get_if<recorded::FaceChosen>(&recording.events[frame.step - 1]) : nullptr;
+    const bool more = frame.step + 1 < recording.events.size();
+    const bool grows = more && std::holds_alternative<recorded::PolytopeGrown>(recording.events[frame.step + 1]);
+    if (!chosen || e.direction.isZero(0)) return "If it lies farther out than the face, the polytope grows to it; if not, the face is the boundary.";
+    return "It reaches " + short_number(e.direction.dot(e.w) / e.direction.norm()) + ", the face " + short_number(chosen->distance) + ": " +
+           (grows ? "the face is not the boundary, and the polytope grows to it." : "as far as it need be known, nothing lies beyond the face.");
+  }
+
   /// Whether directions other than -v are asked for.
   bool led() const { return recording.settings.name == MethodName::gjk_accelerated; }
+
+  bool ends_here() const { return frame.step + 1 < recording.events.size() && std::holds_alternative<recorded::GjkEnded>(recording.events[frame.step + 1]); }
 
   /// v of the simplex before this step; null where there is none.
   const AnyVector* closest_before() const {
@@ -147,6 +162,7 @@ struct Explain {
   std::pair<const char*, const char*> way(const AnyVector& direction) const {
     const Settings& s = recording.settings;
     const AnyVector* v = led() ? closest_before() : nullptr;
+    if (foreign()) return {"The solver's next support", ""};
     if (!v || (direction.normalized() + v->normalized()).norm() < 1e-12) return {"Support towards the origin", ""};
     if (s.acceleration == Acceleration::newton) return {"Support along Newton's direction", "The curvature of the bodies at the last supports tells where the plane farthest from the origin should lie: across d, not across v. "};
     return {"Support along the momentum", "d keeps some of the directions before it, and is not -v alone. "};
@@ -154,21 +170,21 @@ struct Explain {
 
   Explanation operator()(const recorded::SimplexReduced& e) const {
     if (e.before.size() == 1 && e.closest.size() > 0)
-      return {"The simplex is one vertex", "So the nearest point is that vertex: v = " + short_vector(e.closest) + ", |v| = " + short_number(e.closest.norm()) + (led() ? "." : "; the search goes on along -v, towards the origin.")};
+      return {"The simplex is one vertex", "So the nearest point is that vertex: v = " + short_vector(e.closest) + ", |v| = " + short_number(e.closest.norm()) + (led() || ends_here() ? "." : "; the search goes on along -v, towards the origin.")};
     const std::string kept = letters(e.region, e.before), all = letters(e.before, e.before);
     const std::string title = e.before.size() == e.region.size() ? "The whole " + feature_name(e.region.size()) + " is kept" : "Simplex cut to " + feature_name(e.region.size()) + " " + kept;
     std::string text;
     if (e.before.size() == e.region.size()) {
       text = "Every vertex of " + all + " is needed";
     } else {
-      text = "Of " + all + ", the " + feature_name(e.region.size()) + " " + kept + " is nearest the origin; " + letters(frame.dropped, e.before) + " cannot hold the nearest point and " +
-             (frame.dropped.size() == 1 ? "is" : "are") + " dropped";
+      text = "Of " + all + ", the " + feature_name(e.region.size()) + " " + kept + " is nearest the origin; " + letters(frame.dropped, e.before) + (frame.dropped.size() == 1 ? " is" : " are") + " dropped: no part with " +
+             (frame.dropped.size() == 1 ? "it" : "them") + " is nearer";
     }
     text += why_dropped(e);
     if (e.closest.size() == 0) return {title, text + ". The next direction leads from it to the origin."};
     const double length = e.closest.norm();
     if (length == 0) return {title, text + ". The origin lies in it: the nearest point is the origin itself."};
-    return {title, text + ". Its nearest point is v = " + short_vector(e.closest) + ", |v| = " + short_number(length) + (led() ? "." : "; the search goes on along -v.")};
+    return {title, text + ". Its nearest point is v = " + short_vector(e.closest) + ", |v| = " + short_number(length) + (led() || ends_here() ? "." : "; the search goes on along -v.")};
   }
 
   Explanation operator()(const recorded::GjkEnded& e) const {
@@ -186,8 +202,8 @@ struct Explain {
 
   Explanation operator()(const recorded::PolytopeGrown& e) const {
     return {"The polytope grows", "The new vertex sees " + std::to_string(e.removed.size()) + (e.removed.size() == 1 ? " face, which is" : " faces, which are") +
-                                      " removed. The hole's rim, the horizon, is joined to it by " + std::to_string(e.added.size()) + " new faces. The depth lies between " +
-                                      short_number(e.lower_bound) + " and " + short_number(e.upper_bound) + "."};
+                                      " removed. The hole's rim, the horizon, is joined to it by " + std::to_string(e.added.size()) + " new faces." +
+                                      (frame.lower_bound && frame.upper_bound ? " The depth lies between " + short_number(std::max(0.0, -*frame.upper_bound)) + " and " + short_number(-*frame.lower_bound) + "." : "")};
   }
 
   Explanation operator()(const recorded::EpaEnded& e) const {
@@ -218,6 +234,8 @@ struct Explain {
   }
 
   Explanation operator()(const recorded::SatBegan& e) const {
+    if (recording.scene.scene.dimension == 2)
+      return {"SAT begins", "Two convex polygons are apart exactly when the normal of an edge separates them: " + std::to_string(e.faces_a) + " normals of A's edges and " + std::to_string(e.faces_b) + " of B's. Parallel edges share one."};
     return {"SAT begins", "Two polytopes are apart exactly when the normal of a face or the cross product of two edges separates them: " + std::to_string(e.faces_a) + " faces of A, " + std::to_string(e.faces_b) +
                               " of B, and of " + std::to_string(e.edge_pairs) + " pairs of edges those that make a face of A - B." +
                               (e.faces_a == 3 && e.faces_b == 3 && e.edge_pairs == 9 ? " Of two boxes opposite faces and parallel edges share an axis." : "")};
@@ -273,8 +291,13 @@ struct Explain {
 
   Explanation operator()(const recorded::CastAdvanced& e) const {
     const std::string at = "At time " + short_number(e.time) + " " + body(e.pair[0]) + " and " + body(e.pair[1]) + " are " + short_number(e.distance) + " apart along " + short_vector(e.normal) + ". ";
+    if (e.distance < 0) return {"Inside each other", body(e.pair[0]) + " and " + body(e.pair[1]) + " overlap by " + short_number(-e.distance) + " at time " + short_number(e.time) + ": they meet no later than that."};
     if (e.bound <= 0) return {"This pair recedes", at + "Along this normal they do not come nearer any more, so it separates them for good: the pair is left out."};
     return {"Surely apart for a while", at + "They come nearer by at most " + short_number(e.bound) + " per unit of time, so until " + short_number(e.time + std::max(0.0, e.distance) / e.bound) + " they cannot meet."};
+  }
+
+  bool responded() const {
+    return std::any_of(recording.events.begin(), recording.events.end(), [](const Event& event) { return std::holds_alternative<recorded::ImpulseApplied>(event); });
   }
 
   Explanation operator()(const recorded::CastEnded& e) const {
@@ -282,7 +305,7 @@ struct Explain {
     const std::string who = e.pair.size() == 2 ? body(e.pair[0]) + " and " + body(e.pair[1]) : "";
     switch (e.status) {
       case CastStatus::hit: return {title, "At time " + short_number(e.time) + " " + who + " are within the tolerance of each other and still approaching: this is the time of impact, early by no more than that."};
-      case CastStatus::miss: return {title, "No pair meets before the interval ends."};
+      case CastStatus::miss: return {title, responded() ? "Nothing more meets before the interval ends." : "No pair meets before the interval ends."};
       case CastStatus::initially_overlapping: return {title, who + " overlap at the beginning: there is no first time to look for."};
       case CastStatus::at_rest: return {title, "Nothing moves any more."};
       case CastStatus::iteration_limit: return {title, "Until time " + short_number(e.time) + " all are surely apart; no more is known within the limit."};
@@ -301,10 +324,20 @@ struct Explain {
   }
 
   Explanation operator()(const recorded::ImpulseApplied& e) const {
+    if (recording.scene.scene.query == Query::cast) return responds(e);
     std::string text = body(e.pair[1]) + " gets the impulse " + short_vector(e.impulse) + " at " + short_vector(e.point) + ", " + body(e.pair[0]) + " the opposite.";
     if (e.velocities_before.size() == 2 && e.velocities_after.size() == 2)
       text += " Velocities: " + short_vector(e.velocities_before[0]) + " to " + short_vector(e.velocities_after[0]) + " and " + short_vector(e.velocities_before[1]) + " to " + short_vector(e.velocities_after[1]) + ".";
-    return {recording.scene.scene.query == Query::cast ? "The motion responds" : "An impulse", text};
+    return {"An impulse", text};
+  }
+
+  /// A cast's bodies have no masses: those that move get other velocities.
+  Explanation responds(const recorded::ImpulseApplied& e) const {
+    std::string text = body(e.pair[0]) + " and " + body(e.pair[1]) + " touch at " + short_vector(e.point) + ".";
+    for (std::size_t k = 0; k < std::min(e.velocities_before.size(), e.velocities_after.size()) && k < 2; ++k)
+      if (e.velocities_before[k] != e.velocities_after[k])
+        text += " The velocity of " + body(e.pair[k]) + " goes from " + short_vector(e.velocities_before[k]) + " to " + short_vector(e.velocities_after[k]) + ".";
+    return {"The motion responds", text};
   }
 
   Explanation operator()(const recorded::Warning& e) const { return {"Warning: " + e.code, e.message}; }

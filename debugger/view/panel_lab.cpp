@@ -251,7 +251,7 @@ void lab_panel(App& app, const Area& area) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const ImVec2 size{ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x, area.y + area.height - at.y - theme.px(14)};
     if (!there)
-      wrapped("Nothing measured yet. \"Measure now\" runs gjkdbg " + std::string(chart ? "chart" : "atlas") + " --quick; Open or drop a " + (chart ? "chart" : "atlas") + ".json of a full run to see that one.", theme.palette.text_soft);
+      wrapped("Nothing measured yet. \"Measure now\" runs gjkdbg " + std::string(chart ? "chart" : "atlas") + " --quick; Open or drop " + (chart ? "a chart" : "an atlas") + ".json of a full run to see that one.", theme.palette.text_soft);
     else if (chart) chart_area(app, at, size);
     else atlas_area(app, at, size);
   }

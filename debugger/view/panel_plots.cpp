@@ -19,10 +19,16 @@ struct Sample {
 
 std::vector<Sample> samples_of(const Recording& recording) {
   std::vector<Sample> samples;
+  double deepest = std::numeric_limits<double>::infinity();  // by GJK, which EPA goes on from
   for (std::size_t i = 0; i < recording.events.size(); ++i)
     std::visit(
         [&](const auto& e) {
-          if constexpr (requires { e.upper_bound; }) samples.push_back({i, e.upper_bound - e.lower_bound, phase_of(recording.events[i])});
+          using E = std::decay_t<decltype(e)>;
+          if constexpr (std::is_same_v<E, recorded::GjkEnded>) deepest = -e.lower_bound;
+          if constexpr (requires { e.upper_bound; }) {
+            const double upper = std::is_same_v<E, recorded::PolytopeGrown> && e.lower_bound <= deepest ? std::min(e.upper_bound, deepest) : e.upper_bound;
+            samples.push_back({i, upper - e.lower_bound, phase_of(recording.events[i])});
+          }
         },
         recording.events[i]);
   const Result& r = recording.result;

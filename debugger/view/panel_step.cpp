@@ -228,6 +228,11 @@ void answer(App& app) {
   if (r.time) number_row(theme, app.session.scene().scene.query == Query::cast ? "apart until" : "time", short_number(*r.time), theme.palette.text);
   if (r.touching_at) number_row(theme, "touching at", short_number(*r.touching_at), theme.palette.text);
   if (r.energy) number_row(theme, "energy", short_number(*r.energy), theme.palette.text);
+  if (undecided(r)) {
+    number_row(theme, "intersecting", "not known", theme.palette.text_soft);
+    number_row(theme, "support calls", std::to_string(r.support_calls), theme.palette.text_soft);
+    return;
+  }
   number_row(theme, "intersecting", r.intersecting ? "yes" : "no", r.intersecting ? theme.palette.newest : theme.palette.support);
   if (r.signed_distance) number_row(app, "signed distance", short_number(*r.signed_distance), theme.palette.text, last_of<recorded::GjkEnded, recorded::EpaEnded, recorded::MprEnded, recorded::SatEnded, recorded::ClosedFormEnded>(app.session));
   if (r.normal) number_row(theme, "normal", short_vector(*r.normal), theme.palette.text);

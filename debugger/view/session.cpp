@@ -52,11 +52,21 @@ void Session::open(const std::filesystem::path& file) {
   }
 }
 
-void Session::open(SceneFile scene, std::string title) { open(record(scene), std::move(title)); }
+void Session::open(SceneFile scene, std::string title) {
+  take(record(scene));
+  begin(std::move(title));
+}
 
 void Session::open(Recording recording, std::string title) {
   if (recording.events.empty()) throw Error("no-events", "holds no events", "/events");
+  std::vector<Finding> findings = check(recording);
   take(std::move(recording));
+  findings_ = std::move(findings);
+  begin(std::move(title));
+}
+
+/// What was opened is all there is.
+void Session::begin(std::string title) {
   title_ = std::move(title);
   undo_.clear(), redo_.clear(), breakpoints.clear(), bookmarks.clear();
   loop_from.reset(), loop_to.reset();
@@ -68,8 +78,6 @@ void Session::open(Recording recording, std::string title) {
 
 void Session::take(Recording recording) {
   SceneMeshes meshes = scene_meshes(recording.scene.scene);
-  // Our own recordings are clean (tested), and checking each would make dragging slow.
-  std::vector<Finding> findings = recording.generator == generator_name() ? std::vector<Finding>() : check(recording);
   // The cursor stays at the event that corresponds: of the same kind and iteration, the same occurrence of it.
   std::optional<Event> place;
   std::size_t occurrence = 0;
@@ -79,7 +87,7 @@ void Session::take(Recording recording) {
   }
   const bool at_end = replay_ && step_ + 1 == count();
   replay_.reset();
-  findings_ = std::move(findings);
+  findings_.clear();  // what was recorded just now is clean (tested), and checking each would make dragging slow
   recording_ = std::move(recording);
   meshes_ = std::move(meshes);
   replay_.emplace(recording_);

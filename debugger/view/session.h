@@ -88,6 +88,7 @@ class Session {
  private:
   Recording record_from_here(SceneFile next) const;
   void take(Recording recording);
+  void begin(std::string title);
   bool tick_by_the_clock(double seconds);
   void keep_place(const Event& at, std::size_t occurrence);
   void solve_other();

@@ -135,10 +135,16 @@ std::optional<std::size_t> find_text(const Session& session, const std::string& 
   return std::nullopt;
 }
 
+bool undecided(const Result& r) {
+  if (r.status == "aborted") return true;
+  return r.status == gjk_status_names[static_cast<std::size_t>(GjkStatus::iteration_limit)] && (!r.lower_bound || !r.upper_bound || (*r.lower_bound < 0 && *r.upper_bound > 0));
+}
+
 std::string result_text(const Recording& recording) {
   const Result& r = recording.result;
   if (recording.scene.scene.query == Query::simulate) return "time " + short_number(r.time.value_or(0)) + ", energy " + short_number(r.energy.value_or(0));
   if (recording.scene.scene.query == Query::cast) return r.intersecting ? r.status == "hit" ? "hit at " + short_number(*r.time) : "overlapping at first" : r.status == "miss" ? "miss" : r.status;
+  if (undecided(r)) return r.lower_bound && r.upper_bound ? "undecided, between " + short_number(*r.lower_bound) + " and " + short_number(*r.upper_bound) : "undecided";
   std::string text = r.intersecting ? "overlapping" : "apart";
   if (r.signed_distance) {
     const double d = *r.signed_distance;

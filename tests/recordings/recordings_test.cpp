@@ -278,5 +278,19 @@ TEST(DamagedRecordings, CorpusOfTheFuzzer) {
   EXPECT_GT(files, 5);
 }
 
+/// Bodies turned in memory, as the charts' pairs are, have their rotation as numbers only.
+TEST(Scenes, RotationsThatAreNumbersOnlyAreWritten) {
+  for (const int dimension : {2, 3}) {
+    SceneFile file = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": )" + std::to_string(dimension) +
+                                     R"(, "bodies": [{"shape": {"type": "point"}, "pose": {"position": [)" + (dimension == 3 ? "0, 0, 0" : "0, 0") + R"(]}},
+      {"shape": {"type": "point"}, "pose": {"position": [)" + (dimension == 3 ? "1, 2, 3" : "1, 2") + R"(]}}]})", {});
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, dimension == 3 ? Eigen::Vector3d(1, 2, 3).normalized() : Eigen::Vector3d(0, 0, 1)).toRotationMatrix();
+    file.scene.bodies[1].pose.matrix = turn.topLeftCorner(dimension, dimension);
+    const SceneFile read = parse_scene(scene_to_json(file).dump(), {});
+    EXPECT_EQ(read.scene.bodies[0].pose.matrix, file.scene.bodies[0].pose.matrix);
+    EXPECT_LE((read.scene.bodies[1].pose.matrix - file.scene.bodies[1].pose.matrix).norm(), 1e-15);
+  }
+}
+
 }  // namespace
 }  // namespace gjkdbg
