@@ -213,6 +213,43 @@ struct Apply {
     next.step = step;
     next.time = frame.time, next.pair = frame.pair, next.places = std::move(frame.places);
     frame = std::move(next);
+    if (recording.scene.scene.motion) find_pair();
+  }
+
+  /// Whose run begins: the event that closes it says so, and when; where none does (nothing touched), the first support tells.
+  void find_pair() {
+    const recorded::SupportQueried* first = nullptr;
+    for (std::size_t i = step + 1; i < recording.events.size(); ++i) {
+      const Event& event = recording.events[i];
+      if (kind_name(event).ends_with("_began") || std::holds_alternative<recorded::State>(event)) break;
+      if (const auto* advanced = std::get_if<recorded::CastAdvanced>(&event)) {
+        frame.pair = advanced->pair;
+        return advance_to(advanced->time);
+      }
+      if (const auto* contact = std::get_if<recorded::ContactFound>(&event)) {
+        frame.pair = contact->pair;
+        return;
+      }
+      if (const auto* query = std::get_if<recorded::SupportQueried>(&event); query && !first) first = query;
+    }
+    const Scene& scene = recording.scene.scene;
+    if (!first || !first->direction.allFinite() || first->direction.isZero(0) || frame.places.size() != scene.bodies.size()) return;
+    const AnyVector d = first->direction.stableNormalized();
+    const auto is_of = [&](std::size_t i, const AnyVector& along, const AnyVector& point) {
+      Body body = scene.bodies[i];
+      if (std::holds_alternative<Mesh>(body.shape.geometry)) return false;
+      body.pose.position = frame.places[i].position, body.pose.matrix = frame.places[i].rotation;
+      const double reach = reach_of(body.shape, scene.dimension), close = 1e-9 * (reach + point.norm());
+      if ((point - body.pose.position).norm() > reach + close) return false;
+      const WorldSupport support(body, scene.dimension);
+      return std::abs(along.dot(point - support(along, false))) <= close || std::abs(along.dot(point - support(along, true))) <= close;
+    };
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+      for (std::size_t j = i + 1; j < scene.bodies.size(); ++j)
+        if (is_of(i, d, first->a) && is_of(j, -d, first->b)) {
+          frame.pair = {static_cast<int>(i), static_cast<int>(j)};
+          return;
+        }
   }
 
   /// From where the last state left the bodies, or where the scene has them.

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "algo/motion.h"
 #include "recordings/comparison.h"
 #include "recordings/gallery.h"
 #include "recordings/json_writing.h"
@@ -289,6 +290,24 @@ TEST(Scenes, RotationsThatAreNumbersOnlyAreWritten) {
     const SceneFile read = parse_scene(scene_to_json(file).dump(), {});
     EXPECT_EQ(read.scene.bodies[0].pose.matrix, file.scene.bodies[0].pose.matrix);
     EXPECT_LE((read.scene.bodies[1].pose.matrix - file.scene.bodies[1].pose.matrix).norm(), 1e-15);
+  }
+}
+
+/// Of many bodies the frame names those whose points are asked for, where they are then.
+TEST(Replays, NameThePairThatIsLookedAt) {
+  for (const char* name : {"cast-bounce", "cast-many-bodies", "sim-stack-of-five", "sim-newtons-cradle"}) {
+    const Recording recording = record(read_scene(read_gallery(GJKDBG_GALLERY).file(name)));
+    const Scene& scene = recording.scene.scene;
+    Replay replay(recording);
+    for (std::size_t step = 0; step < std::min<std::size_t>(recording.events.size(), 1500); ++step) {
+      const auto* query = std::get_if<recorded::SupportQueried>(&recording.events[step]);
+      if (!query) continue;
+      const Frame& frame = replay.at(step);
+      for (const std::size_t k : {0, 1}) {
+        const auto i = static_cast<std::size_t>(frame.pair[k]);
+        ASSERT_LE(((k == 0 ? query->a : query->b) - frame.places[i].position).norm(), reach_of(scene.bodies[i].shape, scene.dimension) * (1 + 1e-9)) << name << " " << step;
+      }
+    }
   }
 }
 
