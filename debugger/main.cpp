@@ -66,6 +66,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // a solver or a reader that leaves early must not end the program
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow on is an error like any other
   const int status = run(argc, argv);
   // What was printed is done only when it has arrived; or when the other end of a pipe has had enough, as in "gjkdbg scenes | head".
   errno = 0;

@@ -132,7 +132,7 @@ class GjkCheck {
 
  private:
   std::vector<AnyVector> points(const std::vector<int>& numbers);
-  void check_towards_origin(const AnyVector& d);
+  void check_towards_origin(const AnyVector& direction);
   void check_progress(const recorded::SupportQueried& e);
   void check_region(const recorded::SimplexReduced& e);
   void check_closest(const recorded::SimplexReduced& e);
@@ -197,6 +197,7 @@ class RecordCheck {
 
  private:
   void contradiction(const std::string& message);
+  std::string not_as_asked() const;
   void add(const std::vector<recorded::Face>& faces);
   void judge(const recorded::GjkBegan& e);
   void judge(const recorded::VertexKept& e);

@@ -35,31 +35,32 @@ void GjkCheck::operator()(const recorded::GjkBegan& e) {
 }
 
 /// The next direction must lead from the simplex towards the origin, and across the feature that was kept.
-void GjkCheck::check_towards_origin(const AnyVector& d) {
+void GjkCheck::check_towards_origin(const AnyVector& direction) {
   const std::vector<AnyVector> w = points(simplex_);
   if (w.empty() || !pending_.empty() || static_cast<int>(w.size()) > c_.dimension) return;
   const AnyVector v = nearest_point(w).v;
   if (v.norm() <= c_.tolerance) return;
+  const AnyVector d = direction.stableNormalized();
   // Any point of the feature's plane will do as "the simplex": in Muratori's form the feature may not be the nearest one.
   AnyVector nearest_corner = w[0];
   for (const AnyVector& p : w)
     if (p.dot(d) > nearest_corner.dot(d)) nearest_corner = p;
-  const double toward = -d.dot(v) / (d.norm() * v.norm());
+  const double toward = -d.dot(v) / v.norm();
   if (toward < -1e-9 && nearest_corner.dot(d) > 0) {
-    c_.find("direction-away-from-origin", "The direction " + text_of(d) + " leads away from the origin: the simplex's nearest point is v = " + text_of(v) + " and d . (-v) is negative (cosine " + text_of(toward) +
+    c_.find("direction-away-from-origin", "The direction " + text_of(direction) + " leads away from the origin: the simplex's nearest point is v = " + text_of(v) + " and d . (-v) is negative (cosine " + text_of(toward) +
                                               "). Expected is -v or a multiple. The usual cause is a flipped cross product or a missing minus sign.");
     return;
   }
   double worst = 0;
   for (std::size_t i = 1; i < w.size(); ++i) {
     const AnyVector edge = w[i] - w[0];
-    if (edge.norm() > c_.tolerance) worst = std::max(worst, std::abs(d.dot(edge)) / (d.norm() * edge.norm()));
+    if (edge.norm() > c_.tolerance) worst = std::max(worst, std::abs(d.dot(edge)) / edge.norm());
   }
   // The nearest point is no more exact than its vertices are.
   const bool single = c_.recording.settings.scalar == Scalar::float_precision;
   const double rounding = single ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon();
   if (worst > std::max(single ? 1e-2 : 1e-4, 64 * rounding * c_.size / v.norm()))
-    c_.find("direction-not-perpendicular", "The direction " + text_of(d) + " is not perpendicular to the feature that was kept (cosine with an edge " + text_of(worst) + "), though it leads towards the origin. Expected is " +
+    c_.find("direction-not-perpendicular", "The direction " + text_of(direction) + " is not perpendicular to the feature that was kept (cosine with an edge " + text_of(worst) + "), though it leads towards the origin. Expected is " +
                                                text_of(AnyVector(-v)) + " or a multiple. This costs iterations, not the answer.",
             Finding::Severity::warning);
 }
@@ -67,7 +68,7 @@ void GjkCheck::check_towards_origin(const AnyVector& d) {
 /// A query that leaves the simplex as it was is the end, unless the nearest point was put more exactly and the direction has turned. Jolt's rule
 /// compares |v|^2 with that of the step before: it asks on until that no longer falls at all.
 void GjkCheck::check_progress(const recorded::SupportQueried& e) {
-  const bool same_direction = last_direction_.size() > 0 && (e.direction - last_direction_).norm() <= 1e-12 * e.direction.norm();
+  const bool same_direction = last_direction_.size() > 0 && (e.direction - last_direction_).stableNorm() <= 1e-12 * e.direction.stableNorm();
   last_direction_ = e.direction;
   if (!repeated_at_ || !pending_.empty() || !same_direction || c_.recording.settings.stopping == Stopping::jolt) return;
   if (stuck_++ == 0)

@@ -155,10 +155,23 @@ void RecordCheck::judge(const recorded::LinesSolved& e) {
 
 void RecordCheck::judge(const recorded::ClosedFormEnded& e) { ++iterations_, statuses_.emplace(closed_form_status_names[static_cast<std::size_t>(e.status)]); }
 
+/// What is missing of what was asked for, or there without having been asked for.
+std::string RecordCheck::not_as_asked() const {
+  const Result& r = c_.recording.result;
+  const Query query = c_.recording.scene.scene.query;
+  if (query == Query::intersect) return r.signed_distance || r.normal || r.witness_a || r.witness_b || r.contacts ? "holds more than yes or no" : "";
+  if (r.contacts.has_value() != (query == Query::contact) && r.signed_distance) return r.contacts ? "holds contact points" : "has no contact points";
+  if (!r.signed_distance) return r.intersecting && c_.recording.settings.penetration == Penetration::none ? "" : "has no signed_distance";
+  if (!r.witness_a || !r.witness_b) return "has not both witness points";
+  if (!r.lower_bound || !r.upper_bound) return "has not both bounds";
+  return r.normal || (query == Query::distance && r.intersecting) ? "" : "has no normal";
+}
+
 /// The answer's counts and its status are those of the phases. (A common point is looked for without a trace.)
 void RecordCheck::result() {
   const Result& r = c_.recording.result;
   if (!ours_ || statuses_.empty()) return;
+  if (const std::string wrong = not_as_asked(); !wrong.empty()) contradiction("The scene asks for \"" + std::string(query_names[static_cast<std::size_t>(c_.recording.scene.scene.query)]) + "\", but the result " + wrong + ".");
   if (!statuses_.contains(r.status)) contradiction("The result's status is \"" + r.status + "\", with which no phase ended.");
   if (r.iterations != iterations_) contradiction("The result counts " + std::to_string(r.iterations) + " iterations, the phases " + std::to_string(iterations_) + ".");
   if (r.support_calls < supports_) contradiction("The result counts " + std::to_string(r.support_calls) + " support calls, but " + std::to_string(supports_) + " were made.");

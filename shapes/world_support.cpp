@@ -1,5 +1,7 @@
 #include "shapes/world_support.h"
 
+#include <cmath>
+
 #include "shapes/convex.h"
 
 namespace gjkdbg {
@@ -21,6 +23,11 @@ struct WorldSupport::Of final : WorldSupport::Any {
   AnyVector support(const AnyVector& direction, bool whole) const override {
     Vector<D, double> d = direction;
     if (!d.allFinite()) d.setZero();
+    // Solvers ask along directions of any length: those whose squares would overflow or vanish are brought near 1, by a power of two, which rounds nothing.
+    if (const double most = d.cwiseAbs().maxCoeff(); most > 0 && (most < 1e-100 || most > 1e100)) {
+      const int exponent = std::ilogb(most);
+      for (int i = 0; i < D; ++i) d[i] = std::ldexp(d[i], -exponent);
+    }
     Vector<D, double> p = rotation * (convex.reference() + convex.support(rotation.transpose() * d)) + position;
     if (whole && convex.radius() > 0 && !d.isZero(0)) p += convex.radius() * d.stableNormalized();
     return p;

@@ -3,9 +3,11 @@
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import xml.etree.ElementTree
 
@@ -210,6 +212,23 @@ class Program(unittest.TestCase):
         self.assertEqual([p.name for p in self.path.iterdir() if ".part" in p.name], [])
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
+    def test_interrupted_writing_leaves_nothing(self):
+        line = json.dumps(json.loads((ROOT / "recordings/gallery/pair-hull-hull.scene.json").read_text()))
+        with tempfile.TemporaryDirectory() as folder:
+            for end in (signal.SIGTERM, signal.SIGINT):
+                program = subprocess.Popen([PROGRAM, "query", "-", "-o", f"{folder}/out.jsonl"], stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, text=True)
+                program.stdin.write((line + "\n") * 100)
+                program.stdin.flush()
+                for _ in range(500):  # until it writes
+                    if os.listdir(folder):
+                        break
+                    time.sleep(0.02)
+                self.assertTrue(os.listdir(folder))
+                program.send_signal(end)
+                self.assertEqual(program.wait(20), -end)
+                self.assertEqual(os.listdir(folder), [])
+                program.stdin.close()
+
     def test_full_disk(self):
         recording = self.path / "cubes.recording.json"
         run("dump", self.scene, "-o", recording)

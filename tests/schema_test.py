@@ -46,6 +46,17 @@ class Schemas(unittest.TestCase):
             run = subprocess.run([PROGRAM, "dump", str(path)], capture_output=True, text=True, check=True)
             self.check("recording", json.loads(run.stdout), path.name)
 
+    def test_what_every_method_writes(self):
+        for scene in ("box-box-deep", "spheres-deep", "2d-deep"):
+            for method in ("gjk", "gjk-boolean", "gjk-accelerated", "mpr", "sat", "closed-form", "fastest"):
+                query = "intersect" if method == "gjk-boolean" else "penetration"
+                run = subprocess.run([PROGRAM, "dump", scene, "--method", method, "--query", query], capture_output=True, text=True)
+                if run.returncode == 2:
+                    continue  # no method for these bodies
+                recording = json.loads(run.stdout)
+                self.check("recording", recording, f"{scene} by {method}")
+                self.check("scene", recording["scene"], f"{scene} by {method}")
+
     def test_findings_and_solver_messages(self):
         for scene in ("box-box-deep", "box-box-apart"):
             kit = ROOT / "debugger/solver/kits/gjk.py"

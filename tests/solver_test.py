@@ -84,6 +84,7 @@ BUGS = [
     ("a line without end", "box-box-deep", [(FACES, '    sys.stdout.write("x" * 3000000); sys.stdout.flush()\n' + FACES)], "bad-message"),
     ("vector of the wrong size", "box-box-deep", [(FACES, "    support([1.0])\n" + FACES)], "bad-message"),
     ("no result", "box-box-deep", [('    say(type="result"', '    dict(type="result"')], "no-result"),
+    ("crash after the result", "box-box-deep", [('    say(type="result"', '    import atexit, os; atexit.register(lambda: (sys.stdout.flush(), os.abort()))\n    say(type="result"')], "crash"),
     ("output closed", "box-box-deep", [(FACES, "    import os; os.close(1); sys.exit(0)\n" + FACES)], "no-result"),
     ("flood of queries", "box-box-deep", [(FACES, "    import random\n    while True: support([random.random() for _ in range(dimension)])\n" + FACES)], "support-limit"),
 ]
@@ -143,6 +144,13 @@ EDITS = [
     ("box-contact-edge", lambda r: r["result"]["contacts"].clear(), "wrong-contact"),
     ("box-contact-patch", lambda r: [p.__setitem__(0, p[0] + 9) for c in r["result"]["contacts"][:1] for p in (c["point_a"], c["point_b"])], "wrong-contact"),
     ("level-mesh", lambda r: r["result"].update(witness_a=[0, 0, 9]), "wrong-witness"),
+    # More or less than was asked for.
+    ("two-unit-cubes", lambda r: r["scene"].update(query="intersect"), "any:inconsistent"),
+    ("two-unit-cubes", lambda r: r["result"].pop("signed_distance"), "any:inconsistent"),
+    ("two-unit-cubes", lambda r: r["result"].pop("witness_b"), "inconsistent"),
+    ("two-unit-cubes", lambda r: r["result"].pop("normal"), "inconsistent"),
+    ("two-unit-cubes", lambda r: r["result"].pop("lower_bound"), "inconsistent"),
+    ("box-contact-edge", lambda r: r["result"].pop("contacts"), "inconsistent"),
     # Between and at the responses of a cast.
     ("cast-bounce", lambda r: at(r, "state", 1)["bodies"][0]["position"].__setitem__(0, 1.0), "wrong-state"),
     ("cast-bounce", lambda r: at(r, "state")["bodies"][0]["velocity"].__setitem__(1, 3.0), "wrong-state"),
@@ -204,6 +212,23 @@ class Solver(unittest.TestCase):
 
     def test_python_kit_is_clean_on_the_gallery(self):
         self.clean_on_the_gallery(f"/usr/bin/python3 {KIT}")
+
+    def test_directions_of_any_length(self):
+        """Squares of these overflow or vanish."""
+        with tempfile.TemporaryDirectory() as folder:
+            for factor in ("1e-200", "1e200"):
+                path = pathlib.Path(folder, "long.py")
+                path.write_text(SOURCE.replace(SUPPORT, f"w = support(scaled(-{factor} / length(v), v))", 1))
+                with self.subTest(factor):
+                    self.clean_on_the_gallery(f"/usr/bin/python3 {path}", stride=4)
+
+    def test_the_last_line_needs_no_end(self):
+        scene = ROOT / "recordings/gallery/2d-intersect-only.scene.json"
+        answer = json.loads(subprocess.run([PROGRAM, "dump", str(scene)], capture_output=True, text=True).stdout)["result"]["intersecting"]
+        script = "read line; echo '{\"type\":\"support\",\"direction\":[1,0]}'; read line; printf '{\"type\":\"result\",\"intersecting\":%s}'" % json.dumps(answer)
+        codes = [f["code"] for f in self.run_kit(scene, script)]
+        self.assertNotIn("bad-message", codes)
+        self.assertNotIn("no-result", codes)
 
     def test_variants_of_a_right_solver_are_clean(self):
         """Newest vertex last, directions normalised, nothing reported but the answer."""

@@ -3,12 +3,34 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <system_error>
 
 #include "shapes/error.h"
 
 namespace gjkdbg {
+namespace {
+
+char part[4096];  ///< the file being written, for the handler
+
+extern "C" void remove_part(int signal) {
+  if (part[0] != 0) unlink(part);
+  std::signal(signal, SIG_DFL);
+  raise(signal);
+}
+
+/// Whoever ends the program while a file is being written leaves none of it behind. A command that handles the signal itself goes on doing so.
+void remove_when_interrupted(const std::string& path) {
+  if (path.size() >= sizeof part) return;
+  std::memcpy(part, path.c_str(), path.size() + 1);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction now;
+    if (sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_DFL) std::signal(signal, remove_part);
+  }
+}
+
+}  // namespace
 
 OutputFile::OutputFile(const std::string& path) {
   if (path.empty() || path == "-") {
@@ -31,12 +53,13 @@ OutputFile::OutputFile(const std::string& path) {
     temporary_.clear();
     fail();
   }
+  if (!temporary_.empty()) remove_when_interrupted(temporary_.string());
 }
 
 OutputFile::~OutputFile() {
   if (file_ && file_ != stdout) std::fclose(file_);
   std::error_code ignored;
-  if (!temporary_.empty()) std::filesystem::remove(temporary_, ignored);
+  if (!temporary_.empty()) std::filesystem::remove(temporary_, ignored), part[0] = 0;
 }
 
 /// A reader that has had enough, as in "gjkdbg dump … | head", is no error.
@@ -65,7 +88,7 @@ void OutputFile::commit() {
     errno = error.value();
     fail();
   }
-  temporary_.clear();
+  temporary_.clear(), part[0] = 0;
 }
 
 void write_output(const std::string& path, std::string_view text) {

@@ -24,6 +24,8 @@ class SolverRecorder {
   int supports() const { return supports_; }
   /// Ends the recording without an answer.
   void abort(const std::string& code, const std::string& message);
+  /// Beside a result that stands.
+  void warn(const std::string& code, const std::string& message) { recording_.events.push_back(recorded::Warning{code, message}); }
   Recording finish() &&;
 
  private:

@@ -12,6 +12,19 @@ std::string shortened(const std::string& line) {
   return out + (line.size() > 120 ? "..." : "");
 }
 
+bool blank(const std::string& line) { return line.find_first_not_of(" \t\r") == std::string::npos; }
+
+/// The last line needs no end.
+bool completed_by(SolverRecorder& recorder, const std::string& rest) {
+  if (blank(rest)) return false;
+  try {
+    recorder.take(rest);
+  } catch (const Error&) {
+    return false;
+  }
+  return recorder.done();
+}
+
 /// The program has closed its output: it ended, or soon will.
 void ended(SolverProcess& process, SolverRecorder& recorder, SolverProcess::Deadline deadline, const std::string& rest) {
   const auto how = process.wait(std::min(deadline, std::chrono::steady_clock::now() + std::chrono::seconds(2)));
@@ -35,8 +48,11 @@ void talk(SolverProcess& process, SolverRecorder& recorder, const SolverLimits& 
     const Outcome got = process.read_line(line, deadline);
     if (got == Outcome::timeout) return timed_out();
     if (got == Outcome::too_long) return recorder.abort("bad-message", "The solver sent more than a megabyte without the end of a line.");
-    if (got == Outcome::closed) return ended(process, recorder, deadline, line);
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    if (got == Outcome::closed) {
+      if (completed_by(recorder, line)) break;
+      return ended(process, recorder, deadline, line);
+    }
+    if (blank(line)) continue;
     std::string reply;
     try {
       reply = recorder.take(line);
@@ -48,6 +64,9 @@ void talk(SolverProcess& process, SolverRecorder& recorder, const SolverLimits& 
     if (!reply.empty()) sent = process.write_line(reply, deadline);
   }
   process.close_input();
+  // It has until now to end well. One that goes on is ended.
+  const auto how = process.wait(std::min(deadline, std::chrono::steady_clock::now() + std::chrono::milliseconds(500)));
+  if (how && !how->empty()) recorder.warn("crash", "The solver gave its result, and then ended with " + *how + ". Its own error output says more.");
 }
 
 }  // namespace
