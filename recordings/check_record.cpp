@@ -109,7 +109,7 @@ void RecordCheck::judge(const recorded::EpaEnded& e) {
   statuses_.emplace(epa_status_names[static_cast<std::size_t>(e.status)]);
   if (e.face < 0 || faces_.empty()) return;
   if (!chosen_.contains(e.face)) contradiction("EPA ends at face " + std::to_string(e.face) + ", which was never chosen.");
-  else if (const AnyVector& n = faces_[e.face].normal; (n - e.normal).norm() > 1e-9) contradiction("EPA ends at face " + std::to_string(e.face) + " with the normal " + text_of(e.normal) + ", but the face's is " + text_of(n) + ".");
+  else if (const AnyVector& n = faces_[e.face].normal; n.size() != e.normal.size() || (n - e.normal).norm() > 1e-9) contradiction("EPA ends at face " + std::to_string(e.face) + " with the normal " + text_of(e.normal) + ", but the face's is " + text_of(n) + ".");
   faces_.clear(), chosen_.clear();
 }
 
