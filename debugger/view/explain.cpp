@@ -129,7 +129,7 @@ struct Explain {
                                                                          : "It lies at or past the origin along d, so this plane does not separate the bodies.")};
     if (e.phase == Phase::sat) return {"Support along an axis", where + "How far it reaches past the origin is how far the bodies overlap along this axis."};
     if (e.phase == Phase::epa) return {"Support across the chosen face", where + reach_across(e)};
-    const double along = e.direction.dot(e.w) / e.direction.norm();
+    const double along = e.direction.stableNormalized().dot(e.w);
     if (frame.simplex.size() <= 1) return {"First support", where + "One corner of the difference is a start: the simplex is this point."};
     const auto [title, why] = way(e.direction);
     return {title, why + where + (along < 0 ? "It lies " + short_number(-along) + " short of the origin along d: all of A - B does, so the bodies are at least that far apart (radii aside)."
@@ -142,7 +142,7 @@ struct Explain {
     const bool more = frame.step + 1 < recording.events.size();
     const bool grows = more && std::holds_alternative<recorded::PolytopeGrown>(recording.events[frame.step + 1]);
     if (!chosen || e.direction.isZero(0)) return "If it lies farther out than the face, the polytope grows to it; if not, the face is the boundary.";
-    return "It reaches " + short_number(e.direction.dot(e.w) / e.direction.norm()) + ", the face " + short_number(chosen->distance) + ": " +
+    return "It reaches " + short_number(e.direction.stableNormalized().dot(e.w)) + ", the face " + short_number(chosen->distance) + ": " +
            (grows ? "the face is not the boundary, and the polytope grows to it." : "as far as it need be known, nothing lies beyond the face.");
   }
 
