@@ -275,7 +275,7 @@ std::string nearest_name(std::string_view word, const std::vector<std::string_vi
 }
 
 ObjectReader::ObjectReader(const Json& json, const Place& place) : json_(json), place_(place) {
-  if (!json.is_object()) reject(place, "wrong-type", "must be an object");
+  if (!json.is_object()) reject(place, "wrong-type", std::string(place.pointer().empty() ? "the top level " : "") + "must be an object, not " + json.type_name());
 }
 
 const Json* ObjectReader::optional(std::string_view key) {

@@ -331,7 +331,9 @@ class Program(unittest.TestCase):
         for name in ("picture.svg", "picture.png"):
             self.refused(run("render", self.scene, "--all", "-o", self.path / name), name, ".gif")
             self.assertFalse((self.path / name).exists())
+        self.refused(run("render", self.scene, "--all", "--step", 3, "-o", gif), "--step 3")
         self.refused(run("render", self.scene, "-o", ""), "--output")
+        self.refused(run("view", "no-such.scene.json"), "no-such.scene.json")  # before a display is asked for
 
     def test_chart(self):
         folder = self.path / "chart"

@@ -85,6 +85,7 @@ BUGS = [
     ("vector of the wrong size", "box-box-deep", [(FACES, "    support([1.0])\n" + FACES)], "bad-message"),
     ("no result", "box-box-deep", [('    say(type="result"', '    dict(type="result"')], "no-result"),
     ("crash after the result", "box-box-deep", [('    say(type="result"', '    import atexit, os; atexit.register(lambda: (sys.stdout.flush(), os.abort()))\n    say(type="result"')], "crash"),
+    ("another result", "box-box-deep", [('    say(type="result"', '    import atexit; atexit.register(lambda: say(type="result", intersecting=False))\n    say(type="result"')], "bad-message"),
     ("output closed", "box-box-deep", [(FACES, "    import os; os.close(1); sys.exit(0)\n" + FACES)], "no-result"),
     ("flood of queries", "box-box-deep", [(FACES, "    import random\n    while True: support([random.random() for _ in range(dimension)])\n" + FACES)], "support-limit"),
 ]

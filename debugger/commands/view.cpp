@@ -181,6 +181,8 @@ struct View {
   int run() {
     if (!file.empty()) options.file = scene_path(file);
     if (!beside.empty()) options.beside = scene_path(beside);
+    for (const auto& named : {options.file, options.beside})
+      if (!named.empty()) read_text_file(named);  // a wrong name is told where there is no display, too
     options.save = save;
     options.preferences = remembered();
     options.remember = remember;
@@ -204,6 +206,7 @@ struct Render {
 
   int run() const {
     const std::string path = scene_path(file).string();
+    if (all && step != "last") throw Error("bad-usage", "--all shows every step", "--step " + step);
     if (all && !output.ends_with(".gif")) throw Error("unknown-format", "--all writes .gif", "-o " + output);
     if (output.ends_with(".svg")) return svg(path);
     Headless host(width, height, scale, read_gallery(gallery_directory()));

@@ -34,6 +34,16 @@ void ended(SolverProcess& process, SolverRecorder& recorder, SolverProcess::Dead
   recorder.abort("no-result", "The solver ended" + after + " without a \"result\" message. Print it last, and flush the output.");
 }
 
+/// The result is the last message. Its maker may take what comes after for the answer.
+void nothing_follows(SolverProcess& process, SolverRecorder& recorder, SolverProcess::Deadline deadline) {
+  std::string line;
+  SolverProcess::Outcome got;
+  do got = process.read_line(line, deadline);
+  while (got == SolverProcess::Outcome::ok && blank(line));
+  const bool said = got == SolverProcess::Outcome::ok || got == SolverProcess::Outcome::too_long || !blank(line);
+  if (said) recorder.warn("bad-message", "The solver gave its result, which is the last message, and went on: " + shortened(line) + " What comes after the result is not read.");
+}
+
 void talk(SolverProcess& process, SolverRecorder& recorder, const SolverLimits& limits) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(limits.timeout));
   const auto timed_out = [&] {
@@ -64,8 +74,10 @@ void talk(SolverProcess& process, SolverRecorder& recorder, const SolverLimits& 
     if (!reply.empty()) sent = process.write_line(reply, deadline);
   }
   process.close_input();
-  // It has until now to end well. One that goes on is ended.
-  const auto how = process.wait(std::min(deadline, std::chrono::steady_clock::now() + std::chrono::milliseconds(500)));
+  const auto to_end = std::min(deadline, std::chrono::steady_clock::now() + std::chrono::milliseconds(500));
+  nothing_follows(process, recorder, to_end);
+  // It has until then to end well. One that goes on is ended.
+  const auto how = process.wait(to_end);
   if (how && !how->empty()) recorder.warn("crash", "The solver gave its result, and then ended with " + *how + ". Its own error output says more.");
 }
 
