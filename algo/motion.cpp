@@ -44,11 +44,15 @@ std::vector<Shape> convex_parts(const Shape& shape) {
   const Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
   if (!mesh) return {shape};
   std::vector<Shape> parts;
-  for (const auto& t : mesh->triangles) {
-    PointSet triangle{PointSetKind::triangle, {mesh->points[t[0]], mesh->points[t[1]], mesh->points[t[2]]}, {}};
-    parts.push_back({std::move(triangle), shape.margin});
-  }
+  for (std::size_t i = 0; i < mesh->triangles.size(); ++i) parts.push_back(triangle_of(shape, i));
   return parts;
+}
+
+Shape triangle_of(const Shape& mesh, std::size_t number) {
+  const Mesh& all = std::get<Mesh>(mesh.geometry);
+  PointSet triangle{PointSetKind::triangle, {}, {}};
+  for (const int corner : all.triangles[number]) triangle.points.push_back(all.points[static_cast<std::size_t>(corner)]);
+  return {std::move(triangle), mesh.margin};
 }
 
 namespace {

@@ -23,6 +23,8 @@ Body moved(const Body& body, double time, int dimension);
 
 /// A mesh is its triangles, each a convex set of its own; anything else is itself.
 std::vector<Shape> convex_parts(const Shape& shape);
+/// One of a mesh's, with its margin.
+Shape triangle_of(const Shape& mesh, std::size_t number);
 
 /// How far the body reaches from its pose's position.
 double reach_of(const Shape& shape, int dimension);

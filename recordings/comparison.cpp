@@ -21,36 +21,61 @@ std::string text_of(const Result& result, Query query) {
   return text;
 }
 
-/// Names of the fields in which two JSON objects differ.
-std::vector<std::string> differing_fields(const std::string& left, const std::string& right) {
-  const Json a = Json::parse(left), b = Json::parse(right);
+/// Numbers may differ by 1e-4 of the greatest of them and `size`.
+bool nearly_same(const Json& a, const Json& b, double size) {
+  if (a.is_number_float() || b.is_number_float()) {
+    if (!a.is_number() || !b.is_number()) return false;
+    const double x = a.get<double>(), y = b.get<double>();
+    return std::abs(x - y) <= 1e-4 * std::max({size, std::abs(x), std::abs(y)});
+  }
+  if (a.type() != b.type() || a.size() != b.size()) return false;
+  if (a.is_array()) return std::equal(a.begin(), a.end(), b.begin(), [&](const Json& x, const Json& y) { return nearly_same(x, y, size); });
+  if (a.is_object()) return std::all_of(a.items().begin(), a.items().end(), [&](const auto& item) { return b.contains(item.key()) && nearly_same(item.value(), b[item.key()], size); });
+  return a == b;
+}
+
+/// Names of the fields in which two JSON objects are not the same.
+template <class Same>
+std::vector<std::string> differing_fields(const Json& a, const Json& b, const Same& same) {
   std::vector<std::string> names;
   for (const auto& [key, value] : a.items())
-    if (!b.contains(key) || b[key].dump() != value.dump()) names.push_back(key);
+    if (!b.contains(key) || !same(value, b[key])) names.push_back(key);
   for (const auto& [key, value] : b.items())
     if (!a.contains(key)) names.push_back(key);
   return names;
 }
 
-Difference difference(std::size_t event, std::string what, std::string left, std::string right, bool fields) {
-  Difference d{event, std::move(what), {}, std::move(left), std::move(right)};
-  if (fields) d.fields = differing_fields(d.left, d.right);
-  return d;
+template <class Same>
+std::optional<Difference> first_not(const Same& same, const Recording& a, const Recording& b) {
+  const auto difference = [&](std::size_t event, std::string what, std::string left, std::string right, bool comparable) -> std::optional<Difference> {
+    Difference d{event, std::move(what), {}, std::move(left), std::move(right)};
+    if (comparable) d.fields = differing_fields(Json::parse(d.left), Json::parse(d.right), same);
+    if (comparable && d.fields.empty()) return std::nullopt;
+    return d;
+  };
+  const std::size_t longer = std::max(a.events.size(), b.events.size());
+  for (std::size_t i = 0; i < longer; ++i) {
+    std::string left = i < a.events.size() ? text_of(a.events[i]) : "", right = i < b.events.size() ? text_of(b.events[i]) : "";
+    if (left == right) continue;
+    const bool comparable = !left.empty() && !right.empty() && a.events[i].index() == b.events[i].index();
+    if (auto d = difference(i, "event " + std::to_string(i), std::move(left), std::move(right), comparable)) return d;
+  }
+  std::string left = text_of(a.result, a.scene.scene.query), right = text_of(b.result, b.scene.scene.query);
+  if (left == right) return std::nullopt;
+  return difference(longer, "result", std::move(left), std::move(right), true);
 }
 
 }  // namespace
 
 std::optional<Difference> first_difference(const Recording& a, const Recording& b) {
-  const std::size_t longer = std::max(a.events.size(), b.events.size());
-  for (std::size_t i = 0; i < longer; ++i) {
-    const std::string left = i < a.events.size() ? text_of(a.events[i]) : "", right = i < b.events.size() ? text_of(b.events[i]) : "";
-    if (left == right) continue;
-    const bool comparable = !left.empty() && !right.empty() && a.events[i].index() == b.events[i].index();
-    return difference(i, "event " + std::to_string(i), left, right, comparable);
-  }
-  const std::string left = text_of(a.result, a.scene.scene.query), right = text_of(b.result, b.scene.scene.query);
-  if (left == right) return std::nullopt;
-  return difference(longer, "result", left, right, true);
+  return first_not([](const Json& x, const Json& y) { return x.dump() == y.dump(); }, a, b);
+}
+
+std::optional<Difference> first_other_way(const Recording& a, const Recording& b) {
+  double size = 0;
+  for (const Event& event : a.events)
+    if (const auto* query = std::get_if<recorded::SupportQueried>(&event)) size = std::max(size, query->w.cwiseAbs().maxCoeff());
+  return first_not([&](const Json& x, const Json& y) { return nearly_same(x, y, size); }, a, b);
 }
 
 std::optional<Difference> verify(const Recording& recording) {

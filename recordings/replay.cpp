@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "algo/motion.h"
+#include "recordings/mesh_parts.h"
 #include "shapes/world_support.h"
 
 namespace gjkdbg {
@@ -127,6 +128,7 @@ struct Apply {
     frame.iteration = e.iteration;
     frame.mpr_status = e.status;
     frame.stage = Frame::Stage::done;
+    if (step + 1 == recording.events.size()) bounds_of_result();
     if (e.status != MprStatus::separated) frame.normal = e.normal, frame.depth = e.depth;
   }
 
@@ -174,9 +176,11 @@ struct Apply {
   void operator()(const recorded::Warning&) {}
 
   void operator()(const recorded::CastBegan&) {
+    run_is_over();
     if (frame.places.empty()) places_after(0, 0);
   }
   void operator()(const recorded::CastAdvanced& e) {
+    frame.direction.reset(), frame.newest.reset();
     frame.iteration = e.iteration;
     frame.pair = e.pair;
     advance_to(e.time);
@@ -189,6 +193,15 @@ struct Apply {
     frame.stage = Frame::Stage::done;
   }
   void operator()(const recorded::State& e) {
+    run_is_over();
+    stand(e);
+    frame.stage = Frame::Stage::done;
+  }
+  void operator()(const recorded::ContactFound& e) { frame.pair = e.pair, frame.direction.reset(), frame.newest.reset(); }
+  void operator()(const recorded::ImpulseApplied& e) { frame.pair = e.pair, frame.direction.reset(), frame.newest.reset(); }
+
+ private:
+  void stand(const recorded::State& e) {
     frame.places.clear();
     for (const recorded::BodyState& b : e.bodies) {
       AnyMatrix rotation = AnyMatrix::Identity(b.position.size(), b.position.size());
@@ -200,20 +213,18 @@ struct Apply {
       frame.places.push_back({b.position, rotation, b.velocity, b.angular_velocity});
     }
     frame.time = e.time;
-    frame.stage = Frame::Stage::done;
-    frame.simplex.clear(), frame.faces.clear(), frame.chosen.reset(), frame.normal.reset(), frame.depth.reset(), frame.newest.reset();
   }
-  void operator()(const recorded::ContactFound& e) { frame.pair = e.pair; }
-  void operator()(const recorded::ImpulseApplied& e) { frame.pair = e.pair; }
 
- private:
-  /// A run begins: nothing of the one before holds, but for where the bodies are.
   void fresh() {
+    run_is_over();
+    if (recording.scene.scene.motion) find_pair();
+  }
+  /// Nothing of it holds any more, but for where the bodies are.
+  void run_is_over() {
     Frame next;
     next.step = step;
     next.time = frame.time, next.pair = frame.pair, next.places = std::move(frame.places);
     frame = std::move(next);
-    if (recording.scene.scene.motion) find_pair();
   }
 
   /// Whose run begins: the event that closes it says so, and when; where none does (nothing touched), the first support tells.
@@ -274,7 +285,7 @@ struct Apply {
   double last_state_time() {
     for (std::size_t i = step; i-- > 0;)
       if (const auto* state = std::get_if<recorded::State>(&recording.events[i])) {
-        if (frame.time != state->time) (*this)(*state);
+        if (frame.time != state->time) stand(*state);
         return state->time;
       }
     return 0;
@@ -291,10 +302,11 @@ struct Apply {
     if (std::isfinite(lower)) frame.lower_bound = lower;
     if (std::isfinite(upper)) frame.upper_bound = upper;
   }
-  /// For an event that ends the run and has no bounds: the last step narrowed them to the result's. (Of a motion the result is another.)
+  /// For an event that ends the run and has no bounds: the last step narrowed them to the result's. (Of a motion the result is another, of a mesh
+  /// that of all triangles.)
   void bounds_of_result() {
     const Result& result = recording.result;
-    if (!recording.scene.scene.motion && result.lower_bound && result.upper_bound) bounds(*result.lower_bound, *result.upper_bound);
+    if (!recording.scene.scene.motion && !mesh_parts(recording, step) && result.lower_bound && result.upper_bound) bounds(*result.lower_bound, *result.upper_bound);
   }
 };
 
@@ -341,32 +353,6 @@ Frame frame_at(const Recording& recording, std::size_t step) {
   for (std::size_t i = 0; i <= step; ++i) apply(frame, recording, i);
   fill_vertices(frame, recording, index_vertices(recording));
   return frame;
-}
-
-std::vector<SimplexPoint> last_simplex(const Recording& recording) {
-  std::size_t end = recording.events.size();
-  while (end > 0 && !std::holds_alternative<recorded::GjkEnded>(recording.events[end - 1])) --end;
-  const auto& bodies = recording.scene.scene.bodies;
-  if (end == 0 || bodies.size() != 2 || recording.scene.scene.motion) return {};
-  for (const Body& body : bodies)
-    if (std::holds_alternative<Mesh>(body.shape.geometry)) return {};
-  const Frame frame = frame_at(recording, end - 1);
-  const int dimension = recording.scene.scene.dimension;
-  std::vector<SimplexPoint> points;
-  // The points in the events are the world's: far out they have lost digits. The supports are asked for again, in the bodies' own frames.
-  const auto support = [&](const Body& body, const AnyVector& d) {
-    return WorldSupport(Body{body.name, body.shape, identity_pose(dimension)}, dimension)(body.pose.matrix.transpose() * d, false);
-  };
-  const auto& kept = recording.settings.initial_simplex;
-  for (const int v : frame.simplex) {
-    const auto at = frame.vertices.find(v);
-    if (at == frame.vertices.end()) continue;
-    if (const auto* query = std::get_if<recorded::SupportQueried>(&recording.events[at->second.event]))
-      points.push_back({support(bodies[0], query->direction), support(bodies[1], -query->direction)});
-    else if (static_cast<std::size_t>(v) < kept.size())
-      points.push_back(kept[static_cast<std::size_t>(v)]);
-  }
-  return points;
 }
 
 Replay::Replay(const Recording& recording) : recording_(&recording), vertices_(index_vertices(recording)) {}

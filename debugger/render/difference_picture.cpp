@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algo/motion.h"
 #include "debugger/render/painter.h"
 #include "debugger/render/regions.h"
+#include "recordings/mesh_parts.h"
 
 namespace gjkdbg {
 namespace {
@@ -14,8 +16,8 @@ class DifferencePainter : public Painter {
 
   Picture paint() {
     grid();
-    if (settings_.difference && !moves()) mesh(meshes_.difference, palette_.text_faint, 0.07, ViewPoint::Zero());
-    if (settings_.difference && moves()) mesh(difference_here(), palette_.text_faint, 0.07, ViewPoint::Zero());
+    const auto parts = mesh_parts(recording_, frame_.step);
+    if (settings_.difference) mesh(moves() ? difference_here() : parts ? difference_of(*parts) : meshes_.difference, palette_.text_faint, 0.07, ViewPoint::Zero());
     region();
     polytope();
     portal();
@@ -41,6 +43,16 @@ class DifferencePainter : public Painter {
     const int n = static_cast<int>(bodies.size());
     if (frame_.pair[0] >= n || frame_.pair[1] >= n) return {};
     return difference_mesh(at(frame_.pair[0]), at(frame_.pair[1]), meshes_.dimension);
+  }
+
+  /// Of the triangles whose run this is.
+  DisplayMesh difference_of(const MeshParts& parts) const {
+    const auto part = [&](std::size_t i) {
+      Body body = recording_.scene.scene.bodies[i];
+      if (parts.triangle[i] >= 0) body.shape = triangle_of(body.shape, static_cast<std::size_t>(parts.triangle[i]));
+      return body;
+    };
+    return difference_mesh(part(0), part(1), meshes_.dimension);
   }
 
   // --- The difference ---------------------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "debugger/render/painter.h"
+#include "recordings/mesh_parts.h"
 
 namespace gjkdbg {
 namespace {
@@ -18,6 +19,7 @@ class WorldPainter : public Painter {
       if (moves()) swept(n);
       mesh(moves() ? placed(n) : meshes_.bodies[i], body_colour(n), 0.16, one_d_offset(n));
     }
+    triangles();
     velocities();
     supports();
     projected();
@@ -41,6 +43,21 @@ class WorldPainter : public Painter {
     if (meshes_.dimension == 3)
       for (ViewPoint& n : mesh.normals) n = turn * n;
     return mesh;
+  }
+
+  /// Of a mesh the triangle whose run this is.
+  void triangles() {
+    const auto parts = mesh_parts(recording_, frame_.step);
+    for (std::size_t i = 0; parts && i < 2; ++i) {
+      if (parts->triangle[i] < 0) continue;
+      const DisplayMesh& mesh = meshes_.bodies[i];
+      const Colour colour = body_colour(static_cast<int>(i));
+      PictureFace face;
+      for (const int corner : mesh.faces[static_cast<std::size_t>(parts->triangle[i])]) face.points.push_back(mesh.points[static_cast<std::size_t>(corner)]);
+      for (std::size_t k = 0; k < 3; ++k) picture_.line(face.points[k], face.points[(k + 1) % 3], colour, 3);
+      face.fill = colour.with_alpha(0.35);
+      picture_.faces.push_back(std::move(face));
+    }
   }
 
   /// Where a moving body was at the beginning, as an outline, and the way of its place.

@@ -122,6 +122,7 @@ void chip(const Theme& theme, const std::string& text, Colour colour);
 Colour event_colour(const Palette& palette, const Event& event);
 /// "support", "simplex", …: a word for an event's kind in lists.
 const char* short_kind(const Event& event);
+
 /// The answer in a few words: "overlapping, depth 0.1".
 std::string result_text(const Recording& recording);
 /// Whether a limit came before an answer: the bounds leave both open.

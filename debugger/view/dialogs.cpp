@@ -21,8 +21,14 @@ void App::dialogs() {
       std::strncpy(file_buffer_, suggestion.c_str(), sizeof file_buffer_ - 1);
     }
   }
-  ImGui::SetNextWindowSize({std::min(theme.px(560), ImGui::GetIO().DisplaySize.x - theme.px(20)), 0});
-  if (!ImGui::BeginPopupModal("ask", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoSavedSettings)) return;
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowSize({std::min(theme.px(560), window.x - theme.px(20)), 0});
+  const bool find = asked_ == Asking::find;  // the views show what is found: below them, and nothing is dimmed
+  if (find) ImGui::SetNextWindowPos({window.x / 2, window.y - theme.px(10)}, ImGuiCond_Always, {0.5f, 1});
+  ImGui::PushStyleColor(ImGuiCol_ModalWindowDimBg, find ? ImVec4{0, 0, 0, 0} : ImGui::GetStyleColorVec4(ImGuiCol_ModalWindowDimBg));
+  const bool shown = ImGui::BeginPopupModal("ask", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::PopStyleColor();
+  if (!shown) return;
   if (asked_ == Asking::find) find_dialog();
   else if (asked_ == Asking::go_to) go_to_dialog();
   else file_dialog();

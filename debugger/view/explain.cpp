@@ -2,40 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "debugger/render/step_pictures.h"
 #include "recordings/region_tests.h"
 
 namespace gjkdbg {
 
-std::string short_number(double x) {
-  if (std::isnan(x)) return "unknown";
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x == 0 ? 0.0 : x);
-  return text;
-}
-
-std::string short_vector(const AnyVector& v) {
-  std::string out = "(";
-  for (Eigen::Index i = 0; i < v.size(); ++i) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", v[i] == 0 ? 0.0 : v[i]);
-    out += (i > 0 ? ", " : "") + std::string(text);
-  }
-  return out + ")";
-}
-
 namespace {
-
-std::string letters(const std::vector<int>& vertices, const std::vector<int>& order) {
-  std::string out;
-  for (const int v : vertices) {
-    const auto at = std::find(order.begin(), order.end(), v);
-    out += at == order.end() ? "?" : std::string(1, static_cast<char>('A' + (at - order.begin())));
-  }
-  return out;
-}
 
 std::string feature_name(std::size_t vertices) {
   static const char* const names[] = {"nothing", "vertex", "edge", "triangle", "tetrahedron"};
@@ -46,7 +19,7 @@ std::string sentence(GjkStatus status, const recorded::GjkEnded& e) {
   switch (status) {
     case GjkStatus::converged:
       if (!std::isfinite(e.lower_bound) || !std::isfinite(e.upper_bound)) return "The search ends, and the bodies are called apart. How far is not said here.";
-      return "No support lies nearer the origin than v: the bounds " + short_number(e.lower_bound) + " and " + short_number(e.upper_bound) + " have met. The bodies' signed distance is known.";
+      return "No support lies nearer the origin than v: the bounds " + short_number(e.lower_bound) + " and " + short_number(e.upper_bound) + " have met. The signed distance is known.";
     case GjkStatus::separated: return "The plane of the last support has all of A - B on its far side, so the bodies are apart. Only yes or no was asked, and this is the proof.";
     case GjkStatus::within_radius: return "The cores are apart, but nearer than the radii around them: the bodies overlap, and no more was asked.";
     case GjkStatus::enclosed: return "The simplex encloses the origin: some point of A is also a point of B. The cores overlap.";
@@ -280,10 +253,7 @@ struct Explain {
     return {title, "The origin lies in A - B, so the bodies overlap; no more was asked."};
   }
 
-  std::string body(int i) const {
-    const std::string& name = recording.scene.scene.bodies[std::min(static_cast<std::size_t>(i), recording.scene.scene.bodies.size() - 1)].name;
-    return name.empty() ? "body " + std::to_string(i) : name;
-  }
+  std::string body(int i) const { return body_name(recording, i); }
 
   Explanation operator()(const recorded::CastBegan& e) const {
     return {"The cast begins", std::to_string(e.pairs.size()) + (e.pairs.size() == 1 ? " pair of bodies moves" : " pairs of bodies move") + " against each other. When do they meet for the first time?"};
@@ -343,50 +313,8 @@ struct Explain {
   Explanation operator()(const recorded::Warning& e) const { return {"Warning: " + e.code, e.message}; }
 };
 
-struct Summarise {
-  std::string operator()(const recorded::GjkBegan& e) const { return "d = " + short_vector(e.direction); }
-  std::string operator()(const recorded::SupportQueried& e) const { return "w = " + short_vector(e.w); }
-  std::string operator()(const recorded::VertexKept& e) const { return "w = " + short_vector(e.w); }
-  std::string operator()(const recorded::SimplexReduced& e) const {
-    return letters(e.before, e.before) + " -> " + letters(e.region, e.before) + (e.closest.size() > 0 ? "  |v| = " + short_number(e.closest.norm()) : "");
-  }
-  std::string operator()(const recorded::GjkEnded& e) const { return std::string(gjk_status_names[static_cast<std::size_t>(e.status)]); }
-  std::string operator()(const recorded::PolytopeSeeded& e) const { return std::to_string(e.vertices.size()) + " vertices, " + std::to_string(e.faces.size()) + " faces"; }
-  std::string operator()(const recorded::FaceChosen& e) const { return "face " + std::to_string(e.face) + " at " + short_number(e.distance); }
-  std::string operator()(const recorded::PolytopeGrown& e) const { return "-" + std::to_string(e.removed.size()) + " +" + std::to_string(e.added.size()) + " faces"; }
-  std::string operator()(const recorded::EpaEnded& e) const {
-    return std::string(epa_status_names[static_cast<std::size_t>(e.status)]) + "  depth " + short_number(e.depth);
-  }
-  std::string operator()(const recorded::MprBegan& e) const { return "from " + short_vector(e.interior); }
-  std::string operator()(const recorded::PortalFound& e) const { return "portal at " + short_number(e.distance); }
-  std::string operator()(const recorded::MprEnded& e) const {
-    return std::string(mpr_status_names[static_cast<std::size_t>(e.status)]) + "  depth " + short_number(e.depth);
-  }
-  std::string operator()(const recorded::SatBegan& e) const { return std::to_string(e.faces_a) + " + " + std::to_string(e.faces_b) + " faces, " + std::to_string(e.edge_pairs) + " edge pairs"; }
-  std::string operator()(const recorded::AxisTested& e) const { return (e.distance > 0 ? "gap " : "overlap ") + short_number(std::abs(e.distance)); }
-  std::string operator()(const recorded::PointsProjected& e) const { return "|a - b| = " + short_number(e.closest.norm()); }
-  std::string operator()(const recorded::SatEnded& e) const {
-    return std::string(sat_status_names[static_cast<std::size_t>(e.status)]) + "  " + short_number(e.distance);
-  }
-  std::string operator()(const recorded::ClosedFormBegan& e) const { return "c = " + short_vector(e.corner); }
-  std::string operator()(const recorded::LinesSolved& e) const {
-    const std::string s = std::isnan(e.s) ? "" : "s = " + short_number(e.s), t = std::isnan(e.t) ? "" : "t = " + short_number(e.t);
-    return s.empty() || t.empty() ? s + t : s + "  " + t;
-  }
-  std::string operator()(const recorded::ClosedFormEnded& e) const { return std::string(closed_form_status_names[static_cast<std::size_t>(e.status)]) + "  " + short_number((e.lower_bound + e.upper_bound) / 2); }
-  std::string operator()(const recorded::CastBegan& e) const { return std::to_string(e.pairs.size()) + " pairs"; }
-  std::string operator()(const recorded::CastAdvanced& e) const { return "t = " + short_number(e.time) + "  d = " + short_number(e.distance); }
-  std::string operator()(const recorded::CastEnded& e) const { return std::string(cast_status_names[static_cast<std::size_t>(e.status)]) + "  t = " + short_number(e.time); }
-  std::string operator()(const recorded::State& e) const { return "t = " + short_number(e.time); }
-  std::string operator()(const recorded::ContactFound& e) const { return std::to_string(e.pair[0]) + "-" + std::to_string(e.pair[1]) + "  depth " + short_number(e.depth); }
-  std::string operator()(const recorded::ImpulseApplied& e) const { return std::to_string(e.pair[0]) + "-" + std::to_string(e.pair[1]) + "  " + short_number(e.impulse.norm()); }
-  std::string operator()(const recorded::Warning& e) const { return e.code; }
-};
-
 }  // namespace
 
 Explanation explain(const Recording& recording, const Frame& frame) { return std::visit(Explain{recording, frame}, recording.events[frame.step]); }
-
-std::string summary(const Recording& recording, std::size_t step) { return std::visit(Summarise{}, recording.events[step]); }
 
 }  // namespace gjkdbg

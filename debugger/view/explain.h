@@ -25,6 +25,13 @@ struct PseudoCode {
 };
 PseudoCode pseudo_code(const Recording& recording, std::size_t step);
 
+/// The name it has in the scene; "body 0" where it has none.
+std::string body_name(const Recording& recording, int body);
+/// A, B, C, …: what it goes by where there is no room for its name.
+std::string body_letter(int body);
+/// Vertices as A, B, C, D: by their places in `order`.
+std::string letters(const std::vector<int>& vertices, const std::vector<int>& order);
+
 /// Short decimal: six significant digits.
 std::string short_number(double x);
 std::string short_vector(const AnyVector& v);

@@ -4,6 +4,7 @@
 
 #include "algo/motion.h"
 #include "debugger/view/app.h"
+#include "debugger/view/explain.h"
 
 namespace gjkdbg {
 
@@ -129,8 +130,14 @@ bool body(const Theme& theme, Body& b, int index, int dimension, double size) {
   const auto speed = static_cast<float>(size * 0.005);
   ImGui::Dummy({0, theme.px(4)});
   ImGui::AlignTextToFramePadding();
-  ImGui::TextColored(vec(index == 0 ? theme.palette.body_a : index == 1 ? theme.palette.body_b : theme.palette.text_soft), "%s", index < 26 ? std::string(1, static_cast<char>('A' + index)).c_str() : "");
-  if (!b.name.empty() && b.name != "A" && b.name != "B" && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", b.name.c_str());
+  ImGui::TextColored(vec(index == 0 ? theme.palette.body_a : index == 1 ? theme.palette.body_b : theme.palette.text_soft), "%s", body_letter(index).c_str());
+  if (!b.name.empty() && b.name != body_letter(index)) {
+    ImGui::SameLine();
+    ImGui::PushClipRect(ImGui::GetCursorScreenPos(), {ImGui::GetWindowPos().x + theme.px(96), ImGui::GetCursorScreenPos().y + ImGui::GetFrameHeight()}, true);
+    ImGui::TextColored(vec(theme.palette.text_soft), "%s", b.name.c_str());
+    ImGui::PopClipRect();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", b.name.c_str());
+  }
   ImGui::SameLine(theme.px(100));
   bool edited = choose_type(b.shape, dimension, size);
   edited |= std::visit(ShapeEditor{theme, dimension, speed}, b.shape.geometry);

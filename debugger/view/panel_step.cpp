@@ -5,6 +5,7 @@
 #include "debugger/view/app.h"
 #include "debugger/view/explain.h"
 #include "debugger/view/right_step.h"
+#include "recordings/mesh_parts.h"
 #include "recordings/region_tests.h"
 
 namespace gjkdbg {
@@ -33,15 +34,22 @@ const char* phase_name(const Event& event, const Frame& frame) {
   return "GJK";
 }
 
+/// Of a mesh: which triangle the step is about; empty where there is none.
+std::string triangle_name(Session& session) {
+  const auto parts = mesh_parts(session.recording(), session.step());
+  return parts ? "Triangle " + std::to_string(parts->run + 1) + " of " + std::to_string(parts->runs) : "";
+}
+
 void heading(App& app) {
   Session& session = app.session;
   const Theme& theme = app.theme;
   const Explanation e = explain(session.recording(), session.frame());
   ImGui::PushFont(theme.small);
   const char* phase = phase_name(session.recording().events[session.step()], session.frame());
-  const std::string iteration = session.frame().parallelogram ? "" : " iteration " + std::to_string(session.frame().iteration);
+  const std::string iteration = session.frame().parallelogram || std::holds_alternative<recorded::State>(session.recording().events[session.step()]) ? "" : " iteration " + std::to_string(session.frame().iteration);
   const std::string time = session.frame().time ? "  \xC2\xB7  time " + short_number(*session.frame().time) : "";
   ImGui::TextColored(vec(theme.palette.text_faint), "Step %zu of %zu  \xC2\xB7  %s%s%s", session.step(), session.count() - 1, phase, iteration.c_str(), time.c_str());
+  if (const std::string triangle = triangle_name(session); !triangle.empty()) ImGui::TextColored(vec(theme.palette.text_faint), "%s, a convex set of its own", triangle.c_str());
   ImGui::PopFont();
   ImGui::PushFont(theme.title);
   ImGui::TextWrapped("%s", e.title.c_str());
@@ -141,13 +149,14 @@ void comparison(App& app) {
   ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.body_b));
   ImGui::TextWrapped("%s: %s", short_kind(s.other().events[k]), summary(s.other(), k).c_str());
   ImGui::PopStyleColor();
+  const char* but = s.recording().settings.scalar == s.other().settings.scalar ? "" : " but for rounding";
   if (const auto& p = s.parting()) {
     std::string fields;
     for (const std::string& f : p->fields) fields += (fields.empty() ? ": " : ", ") + f;
-    const std::string text = (s.step() < p->event ? "the same so far; they part at step " : "they parted at step ") + std::to_string(p->event) + fields;
+    const std::string text = (s.step() < p->event ? std::string("the same so far") + but + "; they part at step " : "they parted at step ") + std::to_string(p->event) + fields;
     wrapped(text, theme.palette.text_soft);
   } else {
-    ImGui::TextColored(vec(theme.palette.text_soft), "the same, event by event");
+    ImGui::TextColored(vec(theme.palette.text_soft), "the same%s, event by event", but);
   }
   number_row(theme, "its answer", result_text(s.other()), theme.palette.body_b);
 }
@@ -171,7 +180,7 @@ void bounds(App& app) {
   const Frame& frame = app.session.frame();
   const Theme& theme = app.theme;
   if (!frame.lower_bound && !frame.upper_bound) return;
-  section(theme, "SIGNED DISTANCE OF THE BODIES");
+  section(theme, mesh_parts(app.session.recording(), app.session.step()) ? "SIGNED DISTANCE TO THE TRIANGLE" : "SIGNED DISTANCE OF THE BODIES");
   const auto text = [](const std::optional<double>& x) { return x ? short_number(*x) : std::string("unknown"); };
   const auto from = last_of<recorded::SimplexReduced, recorded::GjkEnded, recorded::PolytopeGrown, recorded::PortalFound, recorded::AxisTested, recorded::PointsProjected, recorded::ClosedFormEnded>(app.session);
   number_row(app, "at most", text(frame.upper_bound), theme.palette.text, from);
@@ -224,7 +233,7 @@ void answer(App& app) {
   if (app.session.step() + 1 != app.session.count()) return;
   const Theme& theme = app.theme;
   const Result& r = app.session.recording().result;
-  section(theme, "RESULT");
+  section(theme, mesh_parts(app.session.recording(), app.session.step()) ? "RESULT, OF ALL TRIANGLES" : "RESULT");
   if (r.time) number_row(theme, app.session.scene().scene.query == Query::cast ? "apart until" : "time", short_number(*r.time), theme.palette.text);
   if (r.touching_at) number_row(theme, "touching at", short_number(*r.touching_at), theme.palette.text);
   if (r.energy) number_row(theme, "energy", short_number(*r.energy), theme.palette.text);

@@ -180,7 +180,10 @@ void legend(App& app) {
   const Theme& theme = app.theme;
   const Palette& p = theme.palette;
   ImGui::PushFont(theme.small);
-  const std::pair<const char*, Colour> entries[] = {{"support", p.support}, {"simplex", p.simplex}, {"face chosen", p.chosen}, {"polytope", p.frontier}, {"begin, end", p.text}, {"warning, finding", p.newest}};
+  using Entries = std::vector<std::pair<const char*, Colour>>;
+  const Entries entries = app.session.scene().scene.motion
+                              ? Entries{{"support", p.support}, {"simplex", p.simplex}, {"advance, state", p.accent}, {"impulse", p.body_b}, {"begin, end", p.text}, {"contact, warning", p.newest}}
+                              : Entries{{"support", p.support}, {"simplex", p.simplex}, {"face chosen", p.chosen}, {"polytope", p.frontier}, {"begin, end", p.text}, {"warning, finding", p.newest}};
   for (const auto& [name, colour] : entries) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     if (ImGui::GetCursorPosX() + theme.px(14) + ImGui::CalcTextSize(name).x > ImGui::GetWindowContentRegionMax().x) break;
@@ -197,11 +200,11 @@ void event_list(App& app, float width, float height) {
   Session& s = app.session;
   const Theme& theme = app.theme;
   ImGui::PushStyleColor(ImGuiCol_ChildBg, vec(theme.palette.panel));
-  ImGui::BeginChild("events", {width, height}, false);
   ImGui::PushFont(theme.mono);
+  const float row = ImGui::GetTextLineHeightWithSpacing(), rows = std::max(1.f, std::floor(height / row));  // whole rows only
+  ImGui::BeginChild("events", {width, rows * row}, false);
   static std::size_t shown = 0;
-  const float row = ImGui::GetTextLineHeightWithSpacing();
-  if (shown != s.step()) ImGui::SetScrollY(std::max(0.f, static_cast<float>(s.step()) * row - height / 2));
+  if (shown != s.step()) ImGui::SetScrollY(std::max(0.f, std::round(static_cast<float>(s.step()) - rows / 2) * row));
   shown = s.step();
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(s.count()), row);
@@ -214,15 +217,16 @@ void event_list(App& app, float width, float height) {
       ImGui::SameLine(theme.px(8));
       ImGui::TextColored(vec(theme.palette.text_faint), "%4d", i);
       const ImVec2 at = ImGui::GetItemRectMax();
-      ImGui::GetWindowDrawList()->AddRectFilled({at.x + theme.px(8), at.y - theme.px(13)}, {at.x + theme.px(16), at.y - theme.px(5)}, packed(event_colour(theme.palette, event)), 2);
+      const float middle = at.y - ImGui::GetTextLineHeight() / 2, half = theme.px(4);
+      ImGui::GetWindowDrawList()->AddRectFilled({at.x + theme.px(8), middle - half}, {at.x + theme.px(16), middle + half}, packed(event_colour(theme.palette, event)), 2);
       ImGui::SameLine(theme.px(66));
       ImGui::TextUnformatted(short_kind(event));
       ImGui::SameLine(theme.px(146));
       ImGui::TextColored(vec(theme.palette.text_soft), "%s", summary(s.recording(), k).c_str());
       ImGui::PopID();
     }
-  ImGui::PopFont();
   ImGui::EndChild();
+  ImGui::PopFont();
   ImGui::PopStyleColor();
 }
 

@@ -5,6 +5,7 @@
 
 #include "debugger/view/app.h"
 #include "debugger/view/draw_items.h"
+#include "debugger/view/explain.h"
 
 namespace gjkdbg {
 namespace {
@@ -87,11 +88,10 @@ void turn(Body& body, const ViewPoint& axis, double angle, int dimension) {
 void body_handles(App& app, const Projection& projection, ImDrawList* draw, Held& held) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const int dimension = app.session.scene().scene.dimension;
-  const bool two = app.session.meshes().bodies.size() == 2;
   for (int i = 0; i < static_cast<int>(app.session.meshes().bodies.size()); ++i) {
     const Handle h = handle_of(app, i, projection);
     const Colour colour = i == 0 ? app.theme.palette.body_a : i == 1 ? app.theme.palette.body_b : app.theme.palette.text_soft;
-    const std::string letter = two ? i == 0 ? "A" : "B" : std::to_string(i);
+    const std::string letter = body_letter(i);
     const bool near = ImGui::IsItemHovered() && distance(mouse, h.centre) < h.radius + app.theme.px(3);
     const bool near_disc = ImGui::IsItemHovered() && dimension > 1 && !near && distance(mouse, h.disc) < app.theme.px(7);
     draw->AddCircle(h.centre, h.radius, packed(colour.with_alpha(near || (held.body == i && !held.turning) ? 1 : 0.55)), 24, app.theme.px(2));
@@ -135,8 +135,8 @@ std::string title_of(App& app, const Shown& shown) {
 
 std::string subtitle_of(App& app, const Shown& shown) {
   if (shown.other && app.session.step() >= app.session.other().events.size()) return "has ended at step " + std::to_string(app.session.other().events.size() - 1);
-  if (shown.world) return "the two bodies and their supports";
-  return app.session.meshes().radius > 0 ? "of the cores; dotted: the sum of the radii" : "simplex, direction, support plane, polytope";
+  if (shown.world) return app.session.meshes().bodies.size() > 2 ? "the bodies; in colour the two that are looked at" : "the two bodies and their supports";
+  return app.session.meshes().radius > 0 ? "of the cores; yellow ring: the sum of the radii" : "simplex, direction, support plane, polytope";
 }
 
 void link_cameras(App& app, bool from_world) {
@@ -179,6 +179,11 @@ void one_view(App& app, const Area& area, const Shown& shown, bool interactive, 
   const Recording& recording = shown.other ? s.other() : s.recording();
   const auto items = flatten(make(shown.other ? s.other_meshes() : s.meshes(), recording, shown.other ? s.other_frame() : s.frame(), app.settings, theme.palette, projection), projection);
   draw_items(draw, items, theme);
+  // What is drawn fades out below the title.
+  const ImU32 cover = packed(theme.palette.view), clear = packed(theme.palette.view.with_alpha(0));
+  const float solid = theme.px(38), faded = theme.px(56);
+  draw->AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + solid}, packed(theme.palette.view.with_alpha(1)));
+  draw->AddRectFilledMultiColor({area.x, area.y + solid}, {area.x + area.width, area.y + faded}, cover, cover, clear, clear);
   const ImVec2 title{area.x + theme.px(14), area.y + theme.px(10)};
   draw->AddText(theme.text, theme.text->FontSize, title, packed(shown.other ? theme.palette.body_b : theme.palette.text), title_of(app, shown).c_str());
   draw->AddText(theme.small, theme.small->FontSize, {title.x, title.y + theme.px(20)}, packed(theme.palette.text_faint), subtitle_of(app, shown).c_str());

@@ -137,7 +137,7 @@ void Session::compare_with(Recording recording, std::string title) {
   other_meshes_ = std::move(meshes);
   other_replay_.emplace(other_);
   other_title_ = std::move(title);
-  parting_ = first_difference(recording_, other_);
+  parting_ = (recording_.settings.scalar == other_.settings.scalar ? first_difference : first_other_way)(recording_, other_);
 }
 
 void Session::stop_comparing() {

@@ -1,13 +1,17 @@
 // Files: there and back bit for bit, replay, damage.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "algo/motion.h"
 #include "recordings/comparison.h"
 #include "recordings/gallery.h"
 #include "recordings/json_writing.h"
+#include "recordings/mesh_parts.h"
 #include "recordings/replay.h"
 #include "tests/oracle/exact_polytopes.h"
 #include "tests/oracle/wide_gjk.h"
@@ -171,6 +175,58 @@ TEST(Comparison, NamesTheFirstDifference) {
   b = a;
   *b.result.signed_distance = 1;
   EXPECT_EQ(first_difference(a, b)->what, "result");
+}
+
+TEST(Comparison, PrecisionsPartWhereTheyDecideOtherwise) {
+  SceneFile file = read_scene(gallery().file("box-box-deep"));
+  const Recording a = record(file);
+  file.method.scalar = Scalar::float_precision;
+  Recording b = record(file);
+  ASSERT_TRUE(first_difference(a, b));
+  EXPECT_FALSE(first_other_way(a, b));
+  auto cut = std::find_if(b.events.begin(), b.events.end(), [](const Event& e) { return std::holds_alternative<recorded::SimplexReduced>(e); });
+  std::get<recorded::SimplexReduced>(*cut).region.clear();
+  const auto parting = first_other_way(a, b);
+  ASSERT_TRUE(parting);
+  EXPECT_EQ(parting->event, static_cast<std::size_t>(cut - b.events.begin()));
+  EXPECT_EQ(parting->fields, std::vector<std::string>{"region"});
+}
+
+TEST(Replay, NothingOfARunHoldsOnInAState) {
+  const Recording recording = record(read_scene(gallery().file("cast-bounce")));
+  int states = 0;
+  for (std::size_t i = 0; i < recording.events.size(); ++i) {
+    const Frame frame = frame_at(recording, i);
+    if (std::holds_alternative<recorded::CastAdvanced>(recording.events[i])) {
+      EXPECT_TRUE(frame.lower_bound && !frame.direction && !frame.newest) << i;
+    }
+    if (!std::holds_alternative<recorded::State>(recording.events[i])) continue;
+    EXPECT_FALSE(frame.lower_bound || frame.upper_bound || frame.direction || frame.newest || frame.closest || frame.gjk_status) << i;
+    EXPECT_EQ(frame.places.size(), recording.scene.scene.bodies.size());
+    ++states;
+  }
+  EXPECT_EQ(states, 2);
+}
+
+TEST(MeshParts, CountTheRuns) {
+  const Recording ball = record(read_scene(gallery().file("level-mesh")));
+  EXPECT_EQ(mesh_parts(ball, 0)->triangle, (std::array<int, 2>{-1, 0}));
+  std::set<int> seen;
+  for (std::size_t i = 0; i < ball.events.size(); ++i) {
+    const auto parts = mesh_parts(ball, i);
+    ASSERT_TRUE(parts);
+    EXPECT_EQ(parts->runs, 3);
+    seen.insert(parts->triangle[1]);
+    // Every support of the mesh is a corner of the triangle that is named.
+    if (const auto* query = std::get_if<recorded::SupportQueried>(&ball.events[i])) {
+      const Shape triangle = triangle_of(ball.scene.scene.bodies[1].shape, static_cast<std::size_t>(parts->triangle[1]));
+      const auto& corners = std::get<PointSet>(triangle.geometry).points;
+      EXPECT_TRUE(std::any_of(corners.begin(), corners.end(), [&](const AnyVector& c) { return (c - query->b).norm() < 1e-12; })) << i;
+    }
+  }
+  EXPECT_EQ(seen, (std::set<int>{0, 1, 2}));
+  const Recording boxes = record(read_scene(gallery().file("box-box-deep")));
+  EXPECT_FALSE(mesh_parts(boxes, 0));
 }
 
 // --- Bad input: one clear line, never a crash ----------------------------------------------------------------------

@@ -1,0 +1,99 @@
+// Numbers, names and events in short: for lists, panels and sentences.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "debugger/view/explain.h"
+
+namespace gjkdbg {
+
+std::string short_number(double x) {
+  if (std::isnan(x)) return "unknown";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x == 0 ? 0.0 : x);
+  return text;
+}
+
+std::string short_vector(const AnyVector& v) {
+  std::string out = "(";
+  for (Eigen::Index i = 0; i < v.size(); ++i) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", v[i] == 0 ? 0.0 : v[i]);
+    out += (i > 0 ? ", " : "") + std::string(text);
+  }
+  return out + ")";
+}
+
+std::string letters(const std::vector<int>& vertices, const std::vector<int>& order) {
+  std::string out;
+  for (const int v : vertices) {
+    const auto at = std::find(order.begin(), order.end(), v);
+    out += at == order.end() ? "?" : std::string(1, static_cast<char>('A' + (at - order.begin())));
+  }
+  return out;
+}
+
+std::string body_name(const Recording& recording, int body) {
+  const auto& bodies = recording.scene.scene.bodies;
+  const std::string& name = bodies[std::min(static_cast<std::size_t>(body), bodies.size() - 1)].name;
+  return name.empty() ? "body " + std::to_string(body) : name;
+}
+
+std::string body_letter(int body) { return body < 26 ? std::string(1, static_cast<char>('A' + body)) : std::to_string(body); }
+
+namespace {
+
+struct Summarise {
+  const Recording& recording;
+
+  std::string operator()(const recorded::GjkBegan& e) const { return "d = " + short_vector(e.direction); }
+  std::string operator()(const recorded::SupportQueried& e) const { return "w = " + short_vector(e.w); }
+  std::string operator()(const recorded::VertexKept& e) const { return "w = " + short_vector(e.w); }
+  std::string operator()(const recorded::SimplexReduced& e) const {
+    return letters(e.before, e.before) + " -> " + letters(e.region, e.before) + (e.closest.size() > 0 ? "  |v| = " + short_number(e.closest.norm()) : "");
+  }
+  std::string operator()(const recorded::GjkEnded& e) const { return std::string(gjk_status_names[static_cast<std::size_t>(e.status)]); }
+  std::string operator()(const recorded::PolytopeSeeded& e) const { return std::to_string(e.vertices.size()) + " vertices, " + std::to_string(e.faces.size()) + " faces"; }
+  std::string operator()(const recorded::FaceChosen& e) const { return "face " + std::to_string(e.face) + " at " + short_number(e.distance); }
+  std::string operator()(const recorded::PolytopeGrown& e) const { return "-" + std::to_string(e.removed.size()) + " +" + std::to_string(e.added.size()) + " faces"; }
+  std::string operator()(const recorded::EpaEnded& e) const {
+    return std::string(epa_status_names[static_cast<std::size_t>(e.status)]) + "  depth " + short_number(e.depth);
+  }
+  std::string operator()(const recorded::MprBegan& e) const { return "from " + short_vector(e.interior); }
+  std::string operator()(const recorded::PortalFound& e) const { return "portal at " + short_number(e.distance); }
+  std::string operator()(const recorded::MprEnded& e) const {
+    return std::string(mpr_status_names[static_cast<std::size_t>(e.status)]) + "  depth " + short_number(e.depth);
+  }
+  std::string operator()(const recorded::SatBegan& e) const { return std::to_string(e.faces_a) + " + " + std::to_string(e.faces_b) + " faces, " + std::to_string(e.edge_pairs) + " edge pairs"; }
+  std::string operator()(const recorded::AxisTested& e) const { return (e.distance > 0 ? "gap " : "overlap ") + short_number(std::abs(e.distance)); }
+  std::string operator()(const recorded::PointsProjected& e) const { return "|a - b| = " + short_number(e.closest.norm()); }
+  std::string operator()(const recorded::SatEnded& e) const {
+    return std::string(sat_status_names[static_cast<std::size_t>(e.status)]) + "  " + short_number(e.distance);
+  }
+  std::string operator()(const recorded::ClosedFormBegan& e) const { return "c = " + short_vector(e.corner); }
+  std::string operator()(const recorded::LinesSolved& e) const {
+    const std::string s = std::isnan(e.s) ? "" : "s = " + short_number(e.s), t = std::isnan(e.t) ? "" : "t = " + short_number(e.t);
+    return s.empty() || t.empty() ? s + t : s + "  " + t;
+  }
+  std::string operator()(const recorded::ClosedFormEnded& e) const { return std::string(closed_form_status_names[static_cast<std::size_t>(e.status)]) + "  " + short_number((e.lower_bound + e.upper_bound) / 2); }
+  std::string operator()(const recorded::CastBegan& e) const { return std::to_string(e.pairs.size()) + " pairs"; }
+  std::string operator()(const recorded::CastAdvanced& e) const { return (recording.scene.scene.bodies.size() > 2 ? pair(e.pair) + "  " : "") + "t = " + short_number(e.time) + "  d = " + short_number(e.distance); }
+  std::string operator()(const recorded::CastEnded& e) const { return std::string(cast_status_names[static_cast<std::size_t>(e.status)]) + "  t = " + short_number(e.time); }
+  std::string operator()(const recorded::State& e) const { return "t = " + short_number(e.time); }
+  std::string pair(const std::array<int, 2>& p) const { return body_letter(p[0]) + "-" + body_letter(p[1]); }
+  std::string operator()(const recorded::ContactFound& e) const { return pair(e.pair) + "  depth " + short_number(e.depth); }
+  /// Of a cast the velocities change, and there is no impulse.
+  std::string operator()(const recorded::ImpulseApplied& e) const {
+    if (recording.scene.scene.query != Query::cast) return pair(e.pair) + "  " + short_number(e.impulse.norm());
+    for (std::size_t k = 0; k < std::min(e.velocities_before.size(), e.velocities_after.size()) && k < 2; ++k)
+      if (e.velocities_before[k] != e.velocities_after[k]) return body_letter(e.pair[k]) + "  v = " + short_vector(e.velocities_after[k]);
+    return pair(e.pair);
+  }
+  std::string operator()(const recorded::Warning& e) const { return e.code; }
+};
+
+}  // namespace
+
+std::string summary(const Recording& recording, std::size_t step) { return std::visit(Summarise{recording}, recording.events[step]); }
+
+}  // namespace gjkdbg
