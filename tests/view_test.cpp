@@ -248,7 +248,13 @@ TEST_F(Window, ComparesTwoMethodsInStep) {
   single.scalar = Scalar::float_precision;
   EXPECT_EQ(session.compare_with(single, "single precision"), "");
   ASSERT_TRUE(session.comparing());
+  EXPECT_FALSE(session.parting()) << "they round differently, and decide alike";
+  Method steps;
+  steps.max_iterations = 2;
+  EXPECT_EQ(session.compare_with(steps, "two steps"), "");
   ASSERT_TRUE(session.parting());
+  EXPECT_GT(session.parting()->event, 2u);
+  EXPECT_EQ(session.compare_with(single, "single precision"), "");
   const Image alone = host.image();
   host.frame(), host.frame();
   EXPECT_NE(host.image().rgb, alone.rgb);

@@ -12,11 +12,10 @@ class Painter {
       : meshes_(meshes), recording_(recording), frame_(frame), settings_(settings), palette_(palette), projection_(projection) {}
 
  protected:
-  double unit() const { return std::min(projection_.rectangle().width, projection_.rectangle().height) / projection_.pixels_per_length() / 2; }
+  double unit() const { return half_view(projection_); }
   bool flat() const { return meshes_.dimension < 3; }
 
-  /// Intervals lie over one another: in 1D each is drawn a little off the line.
-  ViewPoint one_d_offset(int body) const { return meshes_.dimension == 1 ? ViewPoint(0, (body == 0 ? 0.16 : -0.16) * unit(), 0) : ViewPoint(ViewPoint::Zero()); }
+  ViewPoint one_d_offset(int body) const { return row_offset(body, meshes_.dimension, projection_); }
 
   bool moves() const { return frame_.places.size() == meshes_.bodies.size() && !frame_.places.empty(); }
 

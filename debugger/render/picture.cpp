@@ -44,11 +44,11 @@ double length_inside(const Box& box, const Projected& p, const Projected& q) {
 /// Finds every label the place around its point, inside the view, where it hides least of other labels, points and strong lines; the first of equals.
 class LabelPlaces {
  public:
-  LabelPlaces(const std::vector<FlatItem>& drawn, const ViewRectangle& view) : drawn_(drawn), view_(view) {}
+  LabelPlaces(const std::vector<FlatItem>& drawn, const ViewRectangle& view, double scale) : drawn_(drawn), view_(view), scale_(scale) {}
 
   Box take(const Projected& at, const PictureLabel& label) {
     const double w = 8.5 * static_cast<double>(label.text.size()), h = 17, right = std::abs(label.dx), side = label.dy;
-    const auto centred = [&](double dx, double dy) { return Box{at.x + dx, at.y + dy - h / 2, w, h}; };
+    const auto centred = [&](double dx, double dy) { return Box{at.x + scale_ * dx, at.y + scale_ * (dy - h / 2), scale_ * w, scale_ * h}; };
     const std::array<Box, 12> boxes{centred(label.dx, side), centred(-right - w, side), centred(right, -side), centred(-right - w, -side),
                                     centred(-w / 2, side - 14), centred(-w / 2, 14 - side), centred(right + 4, 0), centred(-right - 4 - w, 0),
                                     centred(right + 14, side - 20), centred(right + 14, 20 - side), centred(-right - 14 - w, side - 20), centred(-right - 14 - w, 20 - side)};
@@ -68,7 +68,8 @@ class LabelPlaces {
     for (const Box& other : taken_) sum += box.meets(other) ? 200 : 0;
     for (const FlatItem& item : drawn_) {
       const Projected& p = item.points.front();
-      if (item.kind == FlatItem::Kind::point && box.meets({p.x - item.width, p.y - item.width, 2 * item.width, 2 * item.width})) sum += 2 * item.width + 10;
+      const double r = scale_ * item.width;
+      if (item.kind == FlatItem::Kind::point && box.meets({p.x - r, p.y - r, 2 * r, 2 * r})) sum += 2 * r + 10;
       if (item.kind == FlatItem::Kind::line && item.width >= 2) sum += length_inside(box, p, item.points.back());
     }
     return sum;
@@ -76,11 +77,12 @@ class LabelPlaces {
 
   const std::vector<FlatItem>& drawn_;
   const ViewRectangle& view_;
+  const double scale_;
   std::vector<Box> taken_;
 };
 
-std::vector<FlatItem> placed_labels(const Picture& picture, const Projection& project, const std::vector<FlatItem>& drawn) {
-  LabelPlaces places(drawn, project.rectangle());
+std::vector<FlatItem> placed_labels(const Picture& picture, const Projection& project, const std::vector<FlatItem>& drawn, double scale) {
+  LabelPlaces places(drawn, project.rectangle(), scale);
   std::vector<FlatItem> out;
   for (const PictureLabel& label : picture.labels) {
     const Projected at = project(label.at);
@@ -96,7 +98,7 @@ std::vector<FlatItem> placed_labels(const Picture& picture, const Projection& pr
 
 }  // namespace
 
-std::vector<FlatItem> flatten(const Picture& picture, const Projection& project) {
+std::vector<FlatItem> flatten(const Picture& picture, const Projection& project, double scale) {
   std::vector<std::pair<double, FlatItem>> sorted;
   for (const PictureFace& face : picture.faces) {
     FlatItem item;
@@ -117,7 +119,7 @@ std::vector<FlatItem> flatten(const Picture& picture, const Projection& project)
     FlatItem item;
     item.kind = FlatItem::Kind::label;
     item.points = {project(mark.at)};
-    item.points[0].x += mark.dx, item.points[0].y += mark.dy;
+    item.points[0].x += scale * mark.dx, item.points[0].y += scale * mark.dy;
     item.text = mark.text, item.colour = mark.colour, item.small = true;
     out.push_back(std::move(item));
   }
@@ -131,7 +133,7 @@ std::vector<FlatItem> flatten(const Picture& picture, const Projection& project)
     item.colour = point.colour, item.width = point.radius, item.mark = point.mark, item.vertex = point.vertex;
     out.push_back(std::move(item));
   }
-  for (FlatItem& label : placed_labels(picture, project, out)) out.push_back(std::move(label));
+  for (FlatItem& label : placed_labels(picture, project, out, scale)) out.push_back(std::move(label));
   return out;
 }
 

@@ -69,8 +69,8 @@ struct FlatItem {
 };
 
 /// Projects and sorts back to front (faces by their middle, lines just before faces at the same depth; points and labels last).
-/// Labels go to where they hide least of one another, of points and of strong lines.
-std::vector<FlatItem> flatten(const Picture& picture, const Projection& projection);
+/// Labels go to where they hide least of one another, of points and of strong lines. `scale`: of text and marks, in pixels.
+std::vector<FlatItem> flatten(const Picture& picture, const Projection& projection, double scale = 1);
 
 /// As an SVG fragment (no document element).
 std::string to_svg(const std::vector<FlatItem>& items, double font_size);

@@ -15,6 +15,13 @@ SceneMeshes scene_meshes(const Scene& scene) {
   return meshes;
 }
 
+double half_view(const Projection& projection) { return std::min(projection.rectangle().width, projection.rectangle().height) / projection.pixels_per_length() / 2; }
+
+ViewPoint row_offset(int body, int dimension, const Projection& projection) {
+  if (dimension > 1) return ViewPoint::Zero();
+  return {0, (body == 0 ? 0.3 : -0.3) * half_view(projection), 0};
+}
+
 std::string simplex_letter(const Frame& frame, int vertex, bool newest_first) {
   const auto found = std::find(frame.lettered.begin(), frame.lettered.end(), vertex);
   if (found == frame.lettered.end()) return {};

@@ -31,6 +31,11 @@ struct SceneMeshes {
 };
 SceneMeshes scene_meshes(const Scene& scene);
 
+/// Half of the view's shorter side, in lengths of the scene.
+double half_view(const Projection& projection);
+/// Intervals lie over one another: in 1D each is drawn a little off the line.
+ViewPoint row_offset(int body, int dimension, const Projection& projection);
+
 Picture world_picture(const SceneMeshes& meshes, const Recording& recording, const Frame& frame, const ViewSettings& settings, const Palette& palette,
                       const Projection& projection);
 Picture difference_picture(const SceneMeshes& meshes, const Recording& recording, const Frame& frame, const ViewSettings& settings, const Palette& palette,

@@ -1,15 +1,9 @@
 #include "debugger/view/app.h"
 
 #include <algorithm>
-#include <cstring>
-#include <numbers>
+#include <utility>
 
 #include "debugger/view/explain.h"
-#include "debugger/view/input.h"
-#include "debugger/view/scene_code.h"
-#include "recordings/json_writing.h"
-
-#include <nlohmann/json.hpp>
 
 namespace gjkdbg {
 
@@ -95,7 +89,9 @@ void App::panels(const Area& window) {
   }
   if (lecture) {
     const float bottom = std::max(theme.px(190), window.height * 0.27f);
+    theme.marks = lecture_scale(window.height);
     view_panels(*this, {gap, top + gap, window.width - 2 * gap, height - bottom - gap}, true);
+    theme.marks = 1;
     lecture_panel({gap, top + gap + height - bottom, window.width - 2 * gap, bottom});
     banner({gap, top + gap, window.width - 2 * gap, theme.px(40)});
     return;
@@ -107,7 +103,7 @@ void App::panels(const Area& window) {
   const float bottom = std::min(theme.px(p.bottom), window.height * 0.6f);
   const Area middle{left + 2 * gap, top + gap, window.width - left - right - 4 * gap, height - bottom - gap};
   if (narrow) icon_rail({gap, top + gap, left, height});
-  else left_panel({gap, top + gap, left, height});
+  else left_panel({gap, top + gap, left, height}), rail_opens_.reset();
   view_panels(*this, middle, true);
   timeline_panel(*this, {middle.x, middle.y + middle.height + gap, middle.width, bottom});
   step_panel(*this, {window.width - right - gap, top + gap, right, height});
@@ -182,18 +178,23 @@ void App::picture_frame() {
   ImGui::End();
 }
 
+/// As the window is larger than 800 points high, so are the letters.
+float App::lecture_scale(float window_height) const { return std::clamp(window_height / theme.px(800), 1.f, 2.5f); }
+
 /// For a hall: the step in letters that the last row can read, and the scrubber.
 void App::lecture_panel(const Area& area) {
   if (begin_area("lecture", area)) {
     scrubber(*this);
     const Explanation e = explain(session.recording(), session.frame());
     ImGui::Dummy({0, theme.px(4)});
+    ImGui::SetWindowFontScale(lecture_scale(ImGui::GetIO().DisplaySize.y) / 2);
     ImGui::PushFont(theme.lecture_title);
     ImGui::TextUnformatted(e.title.c_str());
     ImGui::PopFont();
     ImGui::PushFont(theme.lecture);
     wrapped(e.text, theme.palette.text_soft);
     ImGui::PopFont();
+    ImGui::SetWindowFontScale(1);
   }
   ImGui::EndChild();
 }
@@ -266,9 +267,14 @@ void App::icon_rail(const Area& area) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {theme.px(5), theme.px(8)});
   begin_area("rail", area);
   ImGui::PopStyleVar();
-  const auto icon = [&](const char* name, const char* popup, const char* tip, bool gallery) {
+  std::optional<LeftTab> opens;
+  const auto popup_of = [](LeftTab tab) { return tab == LeftTab::gallery ? "gallery popup" : "scene popup"; };
+  const auto icon = [&](const char* name, const char* tip, bool gallery) {
     const ImVec2 at = ImGui::GetCursorScreenPos(), size{theme.px(34), theme.px(34)};
-    if (ImGui::Button(name, size)) ImGui::OpenPopup(popup);
+    const LeftTab tab = gallery ? LeftTab::gallery : LeftTab::scene;
+    // A click beside an open popup closes it, and no button hears of it.
+    const bool over = ImGui::IsPopupOpen(popup_of(gallery ? LeftTab::scene : LeftTab::gallery)) && ImGui::IsMouseClicked(ImGuiMouseButton_Left) && ImGui::IsMouseHoveringRect(at, {at.x + size.x, at.y + size.y}, false);
+    if (ImGui::Button(name, size) || over) opens = tab;
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip);
     ImDrawList* draw = ImGui::GetWindowDrawList();
     const ImU32 colour = packed(theme.palette.text);
@@ -283,105 +289,17 @@ void App::icon_rail(const Area& area) {
       }
     }
   };
-  icon("##gallery", "gallery popup", "Gallery (G)", true);
-  icon("##scene", "scene popup", "Scene: bodies, method, what is shown", false);
+  icon("##gallery", "Gallery (G)", true);
+  icon("##scene", "Scene: bodies, method, what is shown (G)", false);
+  if (const auto now = std::exchange(rail_opens_, opens)) ImGui::OpenPopup(popup_of(*now));  // a frame later: the click itself still closes what is open
   for (const bool gallery : {true, false}) {
     ImGui::SetNextWindowPos({area.x + area.width + theme.px(4), area.y});
     ImGui::SetNextWindowSize({theme.px(290), std::min(area.height, theme.px(620))});
-    if (!ImGui::BeginPopup(gallery ? "gallery popup" : "scene popup")) continue;
+    if (!ImGui::BeginPopup(popup_of(gallery ? LeftTab::gallery : LeftTab::scene))) continue;
     gallery ? gallery_panel(*this) : scene_panel(*this);
     ImGui::EndPopup();
   }
   ImGui::EndChild();
-}
-
-void App::step_keys(bool shift, bool control) {
-  const bool right = key_pressed(Key::right) || key_pressed(Key::period), left = key_pressed(Key::left) || key_pressed(Key::comma);
-  if (!right && !left) return;
-  const int direction = right ? 1 : -1;
-  session.playing = false;
-  if (control) session.step_phase(direction);
-  else if (shift) session.step_iteration(direction);
-  else session.step_by(direction);
-}
-
-void App::control_keys(bool shift) {
-  if (key_pressed(Key::z) && session.can_undo()) session.undo();
-  if (key_pressed(Key::y) && session.can_redo()) session.redo();
-  if (key_pressed(Key::o)) ask(Asking::open);
-  if (key_pressed(Key::s)) ask(Asking::save);
-  if (key_pressed(Key::f)) ask(Asking::find);
-  if (key_pressed(Key::g)) ask(Asking::go_to);
-  if (key_pressed(Key::q)) quit = true;
-  if (key_pressed(Key::c)) {
-    ImGui::SetClipboardText(shift ? scene_as_cpp(session.scene()).c_str() : (pretty_json(scene_to_json(session.scene())) + "\n").c_str());
-    note(shift ? "the scene is copied as C++" : "the scene is copied as JSON");
-  }
-}
-
-void App::keys() {
-  const ImGuiIO& io = ImGui::GetIO();
-  // WantTextInput still holds in the frame after a text field went away with its dialog: keys typed meanwhile are no text.
-  if ((io.WantTextInput && ImGui::IsAnyItemActive()) || !session.is_open()) return;
-  step_keys(shift_held(), control_held());
-  if (control_held()) return control_keys(shift_held());
-  if (key_pressed(Key::home)) session.playing = false, session.go_to(0);
-  if (key_pressed(Key::end)) session.playing = false, session.go_to(session.count() - 1);
-  if (key_pressed(Key::space)) session.toggle_play();
-  if (key_pressed(Key::x)) show_lab = !show_lab;
-  if (show_lab && key_pressed(Key::escape)) show_lab = false;
-  if (key_pressed(Key::b)) session.toggle_breakpoint();
-  if (key_pressed(Key::m)) session.add_bookmark();
-  if (key_pressed(Key::left_bracket)) session.loop = true, session.loop_from = session.step();
-  if (key_pressed(Key::right_bracket)) session.loop = true, session.loop_to = session.step();
-  if (key_pressed(Key::f3)) {
-    if (const auto step = find_text(session, find_buffer_, session.step(), shift_held())) session.go_to(*step);
-  }
-  for (int i = 1; i <= 9; ++i)
-    if (key_pressed(static_cast<Key>(static_cast<int>(Key::digit_1) + i - 1)) && session.bookmarks.contains(i)) session.go_to(session.bookmarks[i]);
-  view_keys();
-}
-
-void App::view_keys() {
-  if (key_pressed(Key::f)) fit_views();
-  if (key_pressed(Key::v)) preferences.layout = static_cast<Layout>((static_cast<int>(preferences.layout) + 1) % 4);
-  if (key_pressed(Key::l)) preferences.linked_cameras = !preferences.linked_cameras;
-  if (key_pressed(Key::g)) left_tab = left_tab == LeftTab::gallery ? LeftTab::scene : LeftTab::gallery;
-  if (key_pressed(Key::t)) preferences.dark = !preferences.dark;
-  if (key_pressed(Key::e)) lecture = !lecture;
-  if (key_pressed(Key::slash) || key_pressed(Key::f1)) show_keys = !show_keys;
-  if (key_pressed(Key::escape)) show_keys = lecture = false, settings.selected.reset(), message.clear();
-  const double right_angle = std::numbers::pi / 2;
-  const auto look = [&](double yaw, double pitch) {
-    for (Camera* c : {&world_camera, &difference_camera}) c->yaw = yaw, c->pitch = pitch;
-  };
-  if (key_pressed(Key::pad_1)) look(0, 0);
-  if (key_pressed(Key::pad_2)) look(right_angle, 0);
-  if (key_pressed(Key::pad_3)) look(0, right_angle);
-}
-
-void App::key_sheet() {
-  if (!show_keys) return;
-  static const std::pair<const char*, const char*> rows[] = {
-      {"Right  Left   or   .  ,", "on, back an event"}, {"Shift with them", "an iteration"}, {"Ctrl with them", "a phase"}, {"Home  End", "first, last step"},
-      {"Space", "play, pause"}, {"[  ]", "loop from here, to here"}, {"B", "breakpoint here"}, {"M, 1 to 9", "bookmark, go to it"}, {"Ctrl-F, F3, Shift-F3", "find, next, previous"},
-      {"Ctrl-G", "go to a step"}, {"F, double click", "fit the views"}, {"1 2 3 on the pad", "front, right, top"}, {"V", "side by side, stacked, one view"}, {"L", "link the cameras"},
-      {"G", "gallery or scene"}, {"T", "dark or light"}, {"E", "explain in big letters"}, {"X", "charts and atlas"}, {"Ctrl-O  Ctrl-S", "open, save"}, {"Ctrl-C, Ctrl-Shift-C", "copy the scene: JSON, C++"},
-      {"Ctrl-Z  Ctrl-Y", "undo, redo"}, {"Ctrl-Q", "quit"}, {"drag, right drag, wheel", "orbit, pan, zoom"}, {"click a vertex", "select it in both views"}, {"click a number", "the step it comes from"},
-      {"drag a ring A or B", "move the body"}, {"drag its small disc", "turn the body"}};
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, vec(theme.palette.panel));
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
-  ImGui::Begin("Keys and mouse", &show_keys, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
-  for (const auto& [key, meaning] : rows) {
-    ImGui::TextColored(vec(theme.palette.text), "%s", key);
-    ImGui::SameLine(theme.px(220));
-    ImGui::TextColored(vec(theme.palette.text_soft), "%s", meaning);
-  }
-  ImGui::End();
-  ImGui::PopStyleVar();
-  ImGui::PopStyleColor();
 }
 
 }  // namespace gjkdbg

@@ -72,6 +72,7 @@ class App {
   void left_panel(const Area& area);
   void icon_rail(const Area& area);
   void lecture_panel(const Area& area);
+  float lecture_scale(float window_height) const;
   void panels(const Area& window);
   void splitter(const char* name, const Area& area, bool vertical, float& value, float low, float high, float sign);
   void banner(const Area& area);
@@ -84,6 +85,7 @@ class App {
   Gallery gallery_;
   Thumbnails thumbnails_;
   int fitted_ = 0;
+  std::optional<LeftTab> rail_opens_;  ///< with the next frame
   Asking asking_ = Asking::nothing, asked_ = Asking::nothing;
   std::string find_error_;
   char file_buffer_[1024] = {}, find_buffer_[256] = {};

@@ -25,9 +25,10 @@ void App::dialogs() {
   ImGui::SetNextWindowSize({std::min(theme.px(560), window.x - theme.px(20)), 0});
   const bool find = asked_ == Asking::find;  // the views show what is found: below them, and nothing is dimmed
   if (find) ImGui::SetNextWindowPos({window.x / 2, window.y - theme.px(10)}, ImGuiCond_Always, {0.5f, 1});
-  ImGui::PushStyleColor(ImGuiCol_ModalWindowDimBg, find ? ImVec4{0, 0, 0, 0} : ImGui::GetStyleColorVec4(ImGuiCol_ModalWindowDimBg));
+  ImGui::GetStyle().Colors[ImGuiCol_ModalWindowDimBg] = vec(theme.palette.background.with_alpha(find ? 0 : 0.6));  // read when the frame ends
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   const bool shown = ImGui::BeginPopupModal("ask", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoSavedSettings);
-  ImGui::PopStyleColor();
+  ImGui::PopStyleVar();
   if (!shown) return;
   if (asked_ == Asking::find) find_dialog();
   else if (asked_ == Asking::go_to) go_to_dialog();

@@ -35,21 +35,21 @@ void draw_line(ImDrawList* draw, const FlatItem& item, float scale) {
 
 void draw_point(ImDrawList* draw, const FlatItem& item, const Theme& theme) {
   const ImVec2 p = at(item.points[0]);
-  const float r = static_cast<float>(item.width) * theme.scale;
+  const float scale = theme.scale * theme.marks, r = static_cast<float>(item.width) * scale;
   const ImU32 colour = packed(item.colour), rim = packed(theme.palette.view);
   switch (item.mark) {
     case Mark::disc:
-      draw->AddCircleFilled(p, r + 1.5f * theme.scale, rim, 24);
+      draw->AddCircleFilled(p, r + 1.5f * scale, rim, 24);
       draw->AddCircleFilled(p, r, colour, 24);
       break;
-    case Mark::ring: draw->AddCircle(p, r, colour, 24, 2 * theme.scale); break;
+    case Mark::ring: draw->AddCircle(p, r, colour, 24, 2 * scale); break;
     case Mark::square:
       draw->AddRectFilled({p.x - r, p.y - r}, {p.x + r, p.y + r}, rim);
       draw->AddRectFilled({p.x - r * 0.8f, p.y - r * 0.8f}, {p.x + r * 0.8f, p.y + r * 0.8f}, colour);
       break;
     case Mark::cross:
-      draw->AddLine({p.x - r, p.y}, {p.x + r, p.y}, colour, 2 * theme.scale);
-      draw->AddLine({p.x, p.y - r}, {p.x, p.y + r}, colour, 2 * theme.scale);
+      draw->AddLine({p.x - r, p.y}, {p.x + r, p.y}, colour, 2 * scale);
+      draw->AddLine({p.x, p.y - r}, {p.x, p.y + r}, colour, 2 * scale);
       break;
   }
 }
@@ -58,6 +58,7 @@ void draw_point(ImDrawList* draw, const FlatItem& item, const Theme& theme) {
 
 void draw_items(ImDrawList* draw, const std::vector<FlatItem>& items, const Theme& theme, bool small_marks) {
   std::vector<ImVec2> polygon;
+  const auto text_size = [&](const ImFont* font) { return font->FontSize * theme.marks; };
   for (const FlatItem& item : items) {
     switch (item.kind) {
       case FlatItem::Kind::polygon: {
@@ -75,7 +76,7 @@ void draw_items(ImDrawList* draw, const std::vector<FlatItem>& items, const Them
         draw->Flags = before;
         break;
       }
-      case FlatItem::Kind::line: draw_line(draw, item, theme.scale * (small_marks ? 0.6f : 1)); break;
+      case FlatItem::Kind::line: draw_line(draw, item, theme.scale * theme.marks * (small_marks ? 0.6f : 1)); break;
       case FlatItem::Kind::point:
         if (!small_marks) draw_point(draw, item, theme);
         break;
@@ -83,11 +84,11 @@ void draw_items(ImDrawList* draw, const std::vector<FlatItem>& items, const Them
         if (small_marks) break;
         const ImVec2 p = at(item.points[0]);
         if (item.small) {
-          draw->AddText(theme.small, theme.small->FontSize * 0.85f, p, packed(item.colour), item.text.c_str());
+          draw->AddText(theme.small, text_size(theme.small) * 0.85f, p, packed(item.colour), item.text.c_str());
           break;
         }
-        draw->AddText(theme.text, theme.text->FontSize, {p.x + 1, p.y + 1}, packed(theme.palette.view), item.text.c_str());
-        draw->AddText(theme.text, theme.text->FontSize, p, packed(item.colour), item.text.c_str());
+        draw->AddText(theme.text, text_size(theme.text), {p.x + 1, p.y + 1}, packed(theme.palette.view), item.text.c_str());
+        draw->AddText(theme.text, text_size(theme.text), p, packed(item.colour), item.text.c_str());
         break;
       }
     }

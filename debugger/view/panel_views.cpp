@@ -67,7 +67,7 @@ struct Handle {
 Handle handle_of(const App& app, int body, const Projection& projection) {
   const SceneMeshes& meshes = app.session.meshes();
   const float r = app.theme.px(9);
-  const ImVec2 c = at(projection(middle(meshes.bodies[static_cast<std::size_t>(body)])));
+  const ImVec2 c = at(projection(middle(meshes.bodies[static_cast<std::size_t>(body)]) + row_offset(body, meshes.dimension, projection)));
   return {c, {c.x + r * 1.9f, c.y - r * 1.5f}, r};
 }
 
@@ -94,6 +94,7 @@ void body_handles(App& app, const Projection& projection, ImDrawList* draw, Held
     const std::string letter = body_letter(i);
     const bool near = ImGui::IsItemHovered() && distance(mouse, h.centre) < h.radius + app.theme.px(3);
     const bool near_disc = ImGui::IsItemHovered() && dimension > 1 && !near && distance(mouse, h.disc) < app.theme.px(7);
+    if (dimension == 1) draw->AddCircleFilled(h.centre, h.radius, packed(app.theme.palette.view), 24);  // on the bar of its own colour
     draw->AddCircle(h.centre, h.radius, packed(colour.with_alpha(near || (held.body == i && !held.turning) ? 1 : 0.55)), 24, app.theme.px(2));
     if (dimension > 1) draw->AddCircleFilled(h.disc, app.theme.px(3.5f), packed(colour.with_alpha(near_disc || (held.body == i && held.turning) ? 1 : 0.6)), 16);
     draw->AddText(app.theme.small, app.theme.small->FontSize, {h.centre.x - app.theme.px(4), h.centre.y - app.theme.px(7)}, packed(colour), letter.c_str());
@@ -177,7 +178,7 @@ void one_view(App& app, const Area& area, const Shown& shown, bool interactive, 
   const Projection projection(camera, {area.x, area.y + header * 0.6, area.width, area.height - header * 0.6});
   const auto make = shown.world ? world_picture : difference_picture;
   const Recording& recording = shown.other ? s.other() : s.recording();
-  const auto items = flatten(make(shown.other ? s.other_meshes() : s.meshes(), recording, shown.other ? s.other_frame() : s.frame(), app.settings, theme.palette, projection), projection);
+  const auto items = flatten(make(shown.other ? s.other_meshes() : s.meshes(), recording, shown.other ? s.other_frame() : s.frame(), app.settings, theme.palette, projection), projection, theme.px(theme.marks));
   draw_items(draw, items, theme);
   // What is drawn fades out below the title.
   const ImU32 cover = packed(theme.palette.view), clear = packed(theme.palette.view.with_alpha(0));

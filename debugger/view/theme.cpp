@@ -45,8 +45,8 @@ void load_fonts(Theme& theme, float scale) {
   theme.small = load(inter, dejavu, 13 * scale);
   theme.title = load(bold ? bold : inter, dejavu, 18 * scale);
   theme.mono = load(mono, dejavu, 13.5f * scale);
-  theme.lecture = load(inter, dejavu, 23 * scale);
-  theme.lecture_title = load(bold ? bold : inter, dejavu, 32 * scale);
+  theme.lecture = load(inter, dejavu, 46 * scale);
+  theme.lecture_title = load(bold ? bold : inter, dejavu, 64 * scale);
 }
 
 void apply_colours(Theme& theme, bool dark) {

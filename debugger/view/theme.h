@@ -11,11 +11,12 @@ struct Theme {
   Palette palette = dark_palette;
   bool dark = true;
   float scale = 1;  ///< of everything
+  float marks = 1;  ///< of what the views show, besides
   ImFont* text = nullptr;
   ImFont* small = nullptr;
   ImFont* title = nullptr;
   ImFont* mono = nullptr;
-  ImFont* lecture = nullptr;        ///< for a hall: the sentence
+  ImFont* lecture = nullptr;        ///< for a hall: the sentence. Both are loaded twice as large as in a small window, to be crisp in a large one.
   ImFont* lecture_title = nullptr;
 
   float px(float logical) const { return logical * scale; }
