@@ -78,21 +78,38 @@ class WorldPainter : public Painter {
     for (std::size_t k = 0; k + 1 < way.size(); ++k) picture_.line(way[k], way[k + 1], body_colour(i).with_alpha(0.6), 1.2);
   }
 
+  /// Of the whole motion, so that an arrow that grows shows a body that gets faster. What is slower than a fiftieth of it has none.
+  struct Fastest {
+    double velocity = 0, spin = 0;
+    template <class Velocity, class Spin>
+    void take(const Velocity& v, const Spin& s) {
+      velocity = std::max(velocity, v.norm());
+      for (const double x : s) spin = std::max(spin, std::abs(x));
+    }
+  };
+  static constexpr double least_share = 0.02;
+  Fastest fastest_ever() const {
+    Fastest fastest;
+    for (const Body& body : recording_.scene.scene.bodies)
+      if (body.motion) fastest.take(body.motion->velocity, body.motion->angular_velocity);
+    for (const Event& event : recording_.events)
+      if (const auto* state = std::get_if<recorded::State>(&event))
+        for (const recorded::BodyState& body : state->bodies) fastest.take(body.velocity, body.angular_velocity);
+    return fastest;
+  }
+
   /// Angular velocities: in space an arrow along the axis, in the plane an arc the way the body turns.
-  void spins() {
-    double fastest = 0;
-    for (const Frame::Place& place : frame_.places)
-      for (const double x : place.spin) fastest = std::max(fastest, std::abs(x));
+  void spins(double fastest) {
     if (!(fastest > 0)) return;
     for (const Frame::Place& place : frame_.places) {
       const ViewPoint from = to_view(place.position);
       if (place.spin.size() == 3) {
         const ViewPoint w(place.spin[0], place.spin[1], place.spin[2]);
-        if (!(w.norm() > 1e-6 * fastest)) continue;
+        if (!(w.norm() > least_share * fastest)) continue;
         const ViewPoint tip = from + w * (0.3 * unit() / fastest);
         picture_.arrow(from, tip, palette_.chosen);
         label(tip, "turning", palette_.chosen);
-      } else if (place.spin.size() == 1 && std::abs(place.spin[0]) > 1e-6 * fastest) {
+      } else if (place.spin.size() == 1 && std::abs(place.spin[0]) > least_share * fastest) {
         const double sweep = place.spin[0] / fastest * 1.5, r = 0.14 * unit();
         const auto on_arc = [&](double share) { return ViewPoint(from + r * ViewPoint(std::cos(share * sweep), std::sin(share * sweep), 0)); };
         for (int i = 0; i < 11; ++i) picture_.line(on_arc(i / 12.0), on_arc((i + 1) / 12.0), palette_.chosen, 2);
@@ -101,15 +118,16 @@ class WorldPainter : public Painter {
     }
   }
 
+
   void velocities() {
     if (!moves()) return;
-    spins();
-    double fastest = 0;
-    for (const Frame::Place& place : frame_.places) fastest = std::max(fastest, place.velocity.norm());
+    const Fastest most = fastest_ever();
+    spins(most.spin);
+    const double fastest = most.velocity;
     if (!(fastest > 0)) return;
     for (std::size_t i = 0; i < frame_.places.size(); ++i) {
       const ViewPoint v = to_view(frame_.places[i].velocity);
-      if (!(v.norm() > 1e-9 * fastest)) continue;
+      if (!(v.norm() > least_share * fastest)) continue;
       const ViewPoint from = to_view(frame_.places[i].position), tip = from + v * (0.35 * unit() / fastest);
       picture_.arrow(from, tip, palette_.support);
       label(tip, "velocity", palette_.support);

@@ -7,18 +7,31 @@
 namespace gjkdbg {
 namespace {
 
-/// A colour a method, whatever the scalar; other libraries in greys.
+constexpr std::pair<const char*, std::uint32_t> peers[] = {{"Bullet", 0x8c8f96}, {"FCL", 0x7d8a5c}, {"libccd GJK", 0x9a7358}, {"libccd MPR", 0x5f8296}, {"ODE", 0x8f6c92}};
+
+/// A colour a method, whatever the scalar; other libraries in quieter ones.
 Colour colour_of(const std::string& method, const Palette& p) {
   static constexpr std::pair<const char*, std::uint32_t> ours[] = {{"signed volumes", 0x3d8fe0}, {"Johnson", 0xe0663a}, {"Voronoi regions", 0x2fae83}, {"accelerated", 0xd07ab5},
                                                                    {"Polyak", 0xdca11d}, {"Newton", 0xb8446e},        {"MPR", 0x62b8e8},     {"SAT", 0xa8a032},     {"closed form", 0xb07cc6}};
   for (const auto& [name, value] : ours)
     if (method.starts_with(name)) return rgb(value);
-  static constexpr std::pair<const char*, double> peers[] = {{"Bullet", 0}, {"FCL", -0.2}, {"libccd GJK", -0.35}, {"libccd MPR", -0.5}};
-  for (const auto& [name, shade] : peers)
-    if (method.starts_with(name)) return p.text_soft.shaded(shade);
+  for (const auto& [name, value] : peers)
+    if (method.starts_with(name)) return rgb(value);
   return p.text_faint;
 }
 bool single(const std::string& method) { return method.ends_with(", float"); }
+bool foreign(const std::string& method) {
+  return std::any_of(std::begin(peers), std::end(peers), [&](const auto& peer) { return method.starts_with(peer.first); });
+}
+
+/// Of ours a disc, in float a ring; of others a square.
+void draw_mark(const Theme& theme, const std::string& method, ImVec2 at, Colour colour) {
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const float r = theme.px(3.4f);
+  if (foreign(method)) draw->AddRectFilled({at.x - r, at.y - r}, {at.x + r, at.y + r}, packed(colour));
+  else if (single(method)) draw->AddCircle(at, r, packed(colour), 12, theme.px(1.3f));
+  else draw->AddCircleFilled(at, r, packed(colour), 12);
+}
 
 std::string short_number(double x, const char* format = "%.2g") {
   char text[32];
@@ -64,11 +77,14 @@ class FamilyPlot {
     const Palette& p = theme_.palette;
     list->AddRectFilled(at_, {at_.x + size_.x, at_.y + size_.y}, packed(p.view), theme_.px(6));
     small_text(theme_, {at_.x + theme_.px(10), at_.y + theme_.px(6)}, p.text, family_.title);
+    const std::string axes = "time a query, over worst error";
+    const float room = size_.x - small_width(theme_, family_.title) - theme_.px(40);
+    if (small_width(theme_, axes) < room) small_text(theme_, {to_.x - small_width(theme_, axes), at_.y + theme_.px(6)}, p.text_faint, axes);
     if (family_.dots.empty()) return nullptr;
-    for (double e = -16; e <= 0; e += 4) {
+    for (const double e : {std::log10(nothing), -12.0, -8.0, -4.0, 0.0}) {
       const float x = x_of(std::pow(10, e));
       list->AddLine({x, from_.y}, {x, to_.y}, packed(p.field), 1);
-      const std::string label = e == 0 ? "1" : "1e" + std::to_string(static_cast<int>(e));
+      const std::string label = e == 0 ? "1" : e < -16 ? "none" : "1e" + std::to_string(static_cast<int>(e));
       small_text(theme_, {x - small_width(theme_, label) / 2, to_.y + theme_.px(4)}, p.text_faint, label);
     }
     for (double t = low_; t <= high_; ++t) {
@@ -83,8 +99,7 @@ class FamilyPlot {
     float nearest = theme_.px(9);
     for (const MeasuredDot& d : family_.dots) {
       const ImVec2 x = place(d);
-      if (single(name(d))) list->AddCircle(x, theme_.px(3), packed(faded(d.method)), 12, theme_.px(1.2f));
-      else list->AddCircleFilled(x, theme_.px(3.4f), packed(faded(d.method)), 12);
+      draw_mark(theme_, name(d), x, faded(d.method));
       if (d.front && (highlighted_ < 0 || highlighted_ == d.method)) list->AddCircle(x, theme_.px(6), packed(p.text), 18, theme_.px(1));
       const ImVec2 mouse = ImGui::GetIO().MousePos;
       if (const float away = std::hypot(mouse.x - x.x, mouse.y - x.y); ImGui::IsWindowHovered() && away < nearest && (highlighted_ < 0 || highlighted_ == d.method)) nearest = away, pointed = &d;
@@ -100,7 +115,7 @@ class FamilyPlot {
     if (highlighted_ >= 0 && highlighted_ != method) c.a = 40;
     return c;
   }
-  float x_of(double error) const { return from_.x + static_cast<float>((std::log10(std::clamp(error, nothing, 1.0)) + 17) / 17) * (to_.x - from_.x); }
+  float x_of(double error) const { return from_.x + static_cast<float>((std::log10(std::clamp(error, nothing, 1.0)) + 17.5) / 17.5) * (to_.x - from_.x); }
   float y_of(double time) const { return to_.y - static_cast<float>((std::log10(time) - low_) / (high_ - low_)) * (to_.y - from_.y); }
   ImVec2 place(const MeasuredDot& d) const { return {x_of(d.worst_error), y_of(d.nanoseconds)}; }
 
@@ -138,8 +153,7 @@ void chart_area(App& app, ImVec2 at, ImVec2 size) {
     if (pen.x + width > at.x + size.x) pen = {at.x, pen.y + theme.px(20)};
     const ImVec2 centre{pen.x + theme.px(8), pen.y + theme.px(9)};
     const Colour colour = colour_of(chart.methods[m], theme.palette);
-    if (single(chart.methods[m])) ImGui::GetWindowDrawList()->AddCircle(centre, theme.px(3.5f), packed(colour), 12, theme.px(1.3f));
-    else ImGui::GetWindowDrawList()->AddCircleFilled(centre, theme.px(4), packed(colour), 12);
+    draw_mark(theme, chart.methods[m], centre, colour);
     const bool hovered = ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(pen, {pen.x + width, pen.y + theme.px(18)});
     if (hovered) highlighted = static_cast<int>(m);
     small_text(theme, {pen.x + theme.px(16), pen.y + theme.px(2)}, hovered ? theme.palette.text : theme.palette.text_soft, chart.methods[m]);
@@ -203,7 +217,10 @@ void atlas_area(App& app, ImVec2 at, ImVec2 size) {
   const float width = std::min(theme.px(90), (size.x - label) / static_cast<float>(columns)), height = std::clamp((at.y + size.y - top) / static_cast<float>(rows), theme.px(18), theme.px(34));
   for (std::size_t f = 0; f < columns; ++f) {
     const std::string& name = atlas.families[f].name;
-    small_text(theme, {at.x + label + width * (static_cast<float>(f) + 0.5f) - small_width(theme, name) / 2, top - theme.px(20)}, p.text_soft, name);
+    const ImVec2 low{at.x + label + width * static_cast<float>(f), top - theme.px(22)};
+    const bool hovered = ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(low, {low.x + width, top});
+    small_text(theme, {low.x + (width - small_width(theme, name)) / 2, low.y + theme.px(2)}, hovered ? p.text : p.text_soft, name);
+    if (hovered) ImGui::SetTooltip("%s: %s", name.c_str(), atlas.families[f].what.c_str());
   }
   const MeasuredAtlas::Family* pointed = nullptr;
   std::size_t pointed_method = 0;
@@ -246,7 +263,7 @@ void lab_panel(App& app, const Area& area) {
     if (ImGui::Button("Back to the scene")) app.show_lab = false;
     ImGui::Dummy({0, theme.px(2)});
     wrapped(chart ? "Time a query against the worst error of a family of pairs, a dot a tolerance; ringed: nothing is both faster and more accurate. Left and low is good."
-                  : "The worst verdict of every family of hard pairs, a row a method. Point at a cell for the reason.",
+                  : "The worst verdict of every family of hard pairs, a row a method. Point at a family for what it is, at a cell for the reason.",
             theme.palette.text_faint);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const ImVec2 size{ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x, area.y + area.height - at.y - theme.px(14)};

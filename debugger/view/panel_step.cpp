@@ -1,6 +1,7 @@
 // The right panel: what the step means, the simplex with its weights, the bounds, the algorithm's lines, the selected vertex.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "debugger/view/app.h"
 #include "debugger/view/explain.h"
@@ -26,7 +27,7 @@ std::optional<std::size_t> last_of(const Session& s) {
 /// What runs at a step, for people.
 const char* phase_name(const Event& event, const Frame& frame) {
   if (const auto* query = std::get_if<recorded::SupportQueried>(&event); query && query->phase == Phase::cast) return "ray";
-  if (event.index() >= Event(recorded::CastBegan{}).index() && !std::holds_alternative<recorded::Warning>(event)) return "motion,";
+  if (event.index() >= Event(recorded::CastBegan{}).index() && !std::holds_alternative<recorded::Warning>(event)) return "motion";
   if (phase_of(event) == 1) return "EPA";
   if (frame.stage == Frame::Stage::mpr || frame.mpr_status) return "MPR";
   if (frame.stage == Frame::Stage::sat || frame.sat_status) return "SAT";
@@ -46,7 +47,7 @@ void heading(App& app) {
   const Explanation e = explain(session.recording(), session.frame());
   ImGui::PushFont(theme.small);
   const char* phase = phase_name(session.recording().events[session.step()], session.frame());
-  const std::string iteration = session.frame().parallelogram || std::holds_alternative<recorded::State>(session.recording().events[session.step()]) ? "" : " iteration " + std::to_string(session.frame().iteration);
+  const std::string iteration = session.frame().parallelogram || std::holds_alternative<recorded::State>(session.recording().events[session.step()]) ? "" : std::string(std::strcmp(phase, "motion") == 0 ? "," : "") + " iteration " + std::to_string(session.frame().iteration);
   const std::string time = session.frame().time ? "  \xC2\xB7  time " + short_number(*session.frame().time) : "";
   ImGui::TextColored(vec(theme.palette.text_faint), "Step %zu of %zu  \xC2\xB7  %s%s%s", session.step(), session.count() - 1, phase, iteration.c_str(), time.c_str());
   if (const std::string triangle = triangle_name(session); !triangle.empty()) ImGui::TextColored(vec(theme.palette.text_faint), "%s, a convex set of its own", triangle.c_str());
