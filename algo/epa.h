@@ -62,7 +62,7 @@ class Epa {
 
   EpaResult<D, S> run(const Simplex<D, S>& simplex) {
     polytope_.clear();
-    if (!seed(simplex)) return finish(EpaStatus::flat);
+    if (!seed(simplex)) return finish_flat(simplex);
     if (!enclose_origin()) return finish(EpaStatus::separated);
     trace_seeded();
     return finish(expand());
@@ -191,10 +191,18 @@ class Epa {
     return V::Zero();
   }
 
-  /// A unit direction across the chosen points.
+  /// A unit direction across the chosen points: of a line that passes the origin, towards it.
   V across(const std::array<int, D + 1>& chosen, int rank) const {
-    if constexpr (D == 3)
+    if constexpr (D == 3) {
       if (rank == 2) return plane_normal(chosen);
+      if (rank == 1) {
+        using W = WideVector<S>;
+        const W e = W::difference(at(chosen[1]), at(chosen[0]));
+        const V off = e.cross(W(at(chosen[0])).cross(e)).template rounded<3>();  // |e|^2 times the way from the origin to the line
+        const S length = off.norm();
+        if (length > floor_ * e.template rounded<3>().squaredNorm()) return off / length;
+      }
+    }
     if (rank == 0) return V::Unit(0);
     const V e = (at(chosen[1]) - at(chosen[0])).normalized();
     if constexpr (D == 2) return V(e[1], -e[0]);
@@ -255,10 +263,20 @@ class Epa {
 
   // --- The end ------------------------------------------------------------------------------------------------
 
+  /// A - B lies in a plane (or what spans less). Its support across that, to the nearer side, is the plane's distance from the origin, negative: more
+  /// than rounding, and the bodies are apart by as much, however little GJK could tell. No farther than its simplex.
+  EpaResult<D, S> finish_flat(const Simplex<D, S>& simplex) {
+    if (best_height_ < -floor_) {
+      lower_ = std::min(best_height_, -(simplex.point_a() - simplex.point_b()).norm());
+      return finish(EpaStatus::separated);
+    }
+    lower_ = std::min(S(0), best_height_), best_height_ = 0;
+    return finish(EpaStatus::flat);
+  }
+
   EpaResult<D, S> finish(EpaStatus status) {
     result_.status = status;
-    if (status == EpaStatus::flat) best_height_ = lower_ = 0;
-    if (status == EpaStatus::separated) lower_ = std::min(lower_, -reach_of_nearest_face());
+    if (status == EpaStatus::separated && !polytope_.faces().empty()) lower_ = std::min(lower_, -reach_of_nearest_face());
     result_.depth = best_height_ == 0 ? S(0) : best_height_;
     result_.lower_bound = lower_ - floor_;
     result_.upper_bound = best_height_ + floor_;

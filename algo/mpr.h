@@ -237,7 +237,7 @@ class Mpr {
       std::array<int, D> vertices;
       for (int i = 0; i < D; ++i) vertices[i] = portal_[i].vertex;
       trace_(PortalFound<V, Viewed>{result_.iterations, vertices, n, static_cast<double>(distance), static_cast<double>(-(upper_ + floor_)),
-                                    lower_ >= 0 ? static_cast<double>(floor_ - lower_) : std::numeric_limits<double>::quiet_NaN()});
+                                    lower_ >= 0 ? static_cast<double>(2 * floor_ - lower_) : std::numeric_limits<double>::quiet_NaN()});
     }
   }
 
@@ -245,7 +245,7 @@ class Mpr {
     result_.status = status;
     result_.decided = status != MprStatus::flat && (status != MprStatus::iteration_limit || portal_size_ == D);
     result_.depth = upper_ == 0 ? S(0) : upper_;
-    result_.lower_bound = std::max(S(0), lower_) - floor_;
+    result_.lower_bound = std::max(S(0), lower_) - 2 * floor_;  // what is taken for the inner side may be beyond by a floor
     result_.upper_bound = upper_ + floor_;
     leave_at_the_portal();
     trace_(MprEnded<V, Viewed>{result_.iterations, status, result_.normal, static_cast<double>(result_.depth)});

@@ -174,7 +174,8 @@ class PairSolver {
     if (settings_.penetration == Penetration::none) return overlap_only(-radius_ + rounding());
     if (settings_.penetration == Penetration::mpr) {
       const MprResult<D, S> found = run_mpr(true);
-      if (found.decided) return portal_depth(found);
+      if (found.decided && found.overlapping()) return portal_depth(found);
+      if (found.decided) return apart_after_all(found);
     }
     EpaOptions<S> options;
     options.tolerance = static_cast<S>(settings_.tolerance);
@@ -185,6 +186,13 @@ class PairSolver {
     set_bounds(-found.upper_bound, -found.lower_bound);
     const bool flat = found.face < 0;
     witnesses(flat ? gjk_.simplex.point_a() : found.point_a, flat ? gjk_.simplex.point_b() : found.point_b, found.normal, -found.depth);
+  }
+
+  /// MPR has a plane between bodies that GJK could not tell apart: GJK's simplex has the nearest points it knew.
+  void apart_after_all(const MprResult<D, S>& found) {
+    const S cores = difference_.radius() - found.depth, floor = difference_.rounding_floor();
+    set_bounds(std::max(gjk_.lower_bound, cores - floor), std::max(gjk_.upper_bound, cores + floor));
+    witnesses(gjk_.simplex.point_a(), gjk_.simplex.point_b(), found.normal, cores);
   }
 
   // --- MPR and SAT ------------------------------------------------------------------------------------------------
@@ -211,7 +219,7 @@ class PairSolver {
     if (query == Query::intersect) return true;
     if (!depth) {
       const V common = on_the_ray(found);
-      return overlapping_at(common, common), true;
+      return overlapping_at(common, common, 2 * difference_.rounding_floor()), true;
     }
     if (settings_.penetration == Penetration::epa) return false;  // GJK's simplex is where EPA starts
     if (settings_.penetration == Penetration::none) return overlap_only(0), true;
@@ -294,7 +302,7 @@ class PairSolver {
   }
 
   void sat_witnesses(const SatResult<D, S>& found, const std::optional<BoxWitnesses<D, S>>& known, Query query) {
-    if (query == Query::distance) return inside_both();
+    if (query == Query::distance) return inside_both(std::max(S(0), difference_.rounding_floor() - found.depth));
     V a, b;
     if (known) {
       a = known->a, b = known->b;
@@ -321,7 +329,7 @@ class PairSolver {
   }
 
   /// A point of both bodies, which SAT does not come by: GJK's simplex makes one.
-  void inside_both() {
+  void inside_both(S no_farther) {
     Difference same = difference_.moved(V::Zero());
     GjkOptions<D, S> options;
     options.goal = GjkGoal::distance;
@@ -330,13 +338,14 @@ class PairSolver {
     GjkResult<D, S> nearest;
     gjk<SignedVolumes<D, S>>(same, options, silent, nearest);
     more_calls_ = same.support_calls();
-    overlapping_at(nearest.simplex.point_a(), nearest.simplex.point_b());
+    overlapping_at(nearest.simplex.point_a(), nearest.simplex.point_b(), no_farther);
   }
 
-  /// The answer of a distance query to an overlap, between points of the cores no farther from each other than the radii reach.
-  void overlapping_at(const V& a, const V& b) {
+  /// The answer of a distance query to an overlap, between points of the cores no farther from each other than the radii reach. What rounding
+  /// takes for an overlap may be a gap, but no wider one than this.
+  void overlapping_at(const V& a, const V& b, S no_farther) {
     result_->intersecting = true;
-    result_->lower_bound = result_->upper_bound = 0;
+    result_->lower_bound = 0, result_->upper_bound = length(static_cast<double>(no_farther));
     set_common_point(*result_, frame_, a, b, radius_a(), radius_b());
   }
 
