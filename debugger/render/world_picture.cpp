@@ -133,15 +133,15 @@ class WorldPainter : public Painter {
       label(tip, "velocity", palette_.support);
     }
     if (const auto* e = std::get_if<recorded::ImpulseApplied>(&recording_.events[frame_.step])) impulse(*e);
-    if (const auto* e = std::get_if<recorded::ContactFound>(&recording_.events[frame_.step])) picture_.points.push_back({to_view(e->point), palette_.newest, 6, Mark::square, -1});
+    if (const auto* e = std::get_if<recorded::ContactFound>(&recording_.events[frame_.step])) picture_.points.push_back({to_view(e->point), palette_.chosen, 6, Mark::square, -1});
   }
 
   void impulse(const recorded::ImpulseApplied& e) {
     const ViewPoint at = to_view(e.point), along = to_view(e.impulse);
-    picture_.points.push_back({at, palette_.newest, 5, Mark::square, -1});
+    picture_.points.push_back({at, palette_.chosen, 5, Mark::square, -1});
     if (along.isZero(0)) return;
-    picture_.arrow(at, at + along.stableNormalized() * unit() * 0.3, palette_.newest);
-    label(at + along.stableNormalized() * unit() * 0.3, "impulse", palette_.newest);
+    picture_.arrow(at, at + along.stableNormalized() * unit() * 0.3, palette_.chosen);
+    label(at + along.stableNormalized() * unit() * 0.3, "impulse", palette_.chosen);
   }
 
   // --- The world ------------------------------------------------------------------------------------------------
@@ -201,8 +201,8 @@ class WorldPainter : public Painter {
     }
     if (!r.contacts) return;
     for (const ContactPoint& c : *r.contacts) {
-      picture_.points.push_back({to_view(c.point_a), palette_.newest, 5, Mark::square, -1});
-      picture_.lines.push_back({to_view(c.point_a), to_view(c.point_b), palette_.newest, 2, Stroke::solid, false, true});
+      picture_.points.push_back({to_view(c.point_a), palette_.chosen, 5, Mark::square, -1});
+      picture_.lines.push_back({to_view(c.point_a), to_view(c.point_b), palette_.chosen, 2, Stroke::solid, false, true});
     }
   }
 };

@@ -248,7 +248,7 @@ void answer(App& app) {
   if (r.normal) number_row(theme, "normal", short_vector(*r.normal), theme.palette.text);
   if (r.witness_a) number_row(theme, "witness a", short_vector(*r.witness_a), theme.palette.body_a);
   if (r.witness_b) number_row(theme, "witness b", short_vector(*r.witness_b), theme.palette.body_b);
-  if (r.contacts) number_row(theme, "contact points", std::to_string(r.contacts->size()), theme.palette.newest);
+  if (r.contacts) number_row(theme, "contact points", std::to_string(r.contacts->size()), theme.palette.chosen);
   number_row(theme, "support calls", std::to_string(r.support_calls), theme.palette.text_soft);
 }
 

@@ -182,7 +182,7 @@ void legend(App& app) {
   ImGui::PushFont(theme.small);
   using Entries = std::vector<std::pair<const char*, Colour>>;
   const Entries entries = app.session.scene().scene.motion
-                              ? Entries{{"support", p.support}, {"simplex", p.simplex}, {"advance, state", p.accent}, {"impulse", p.body_b}, {"begin, end", p.text}, {"contact, warning", p.newest}}
+                              ? Entries{{"support", p.support}, {"simplex", p.simplex}, {"advance, state", p.accent}, {"contact", p.chosen}, {"impulse", p.body_b}, {"begin, end", p.text}, {"warning", p.newest}}
                               : Entries{{"support", p.support}, {"simplex", p.simplex}, {"face chosen", p.chosen}, {"polytope", p.frontier}, {"begin, end", p.text}, {"warning, finding", p.newest}};
   for (const auto& [name, colour] : entries) {
     const ImVec2 at = ImGui::GetCursorScreenPos();

@@ -99,7 +99,7 @@ Colour event_colour(const Palette& p, const Event& event) {
     Colour operator()(const recorded::CastAdvanced&) const { return p.accent; }
     Colour operator()(const recorded::CastEnded&) const { return p.text; }
     Colour operator()(const recorded::State&) const { return p.accent; }
-    Colour operator()(const recorded::ContactFound&) const { return p.newest; }
+    Colour operator()(const recorded::ContactFound&) const { return p.chosen; }
     Colour operator()(const recorded::ImpulseApplied&) const { return p.body_b; }
     Colour operator()(const recorded::Warning&) const { return p.newest; }
   } colours{p};
