@@ -80,7 +80,7 @@ class Epa {
       ++result_.iterations;
       const Point point = query(face.normal, Phase::epa);
       const S height = face.normal.dot(point.w);
-      offer(number, face, height);
+      offer(number, face, height, point);
       if (height < 0 && face.distance < 0) return EpaStatus::separated;
       if (best_height_ - face.distance <= options_.tolerance * best_height_ + floor_) return EpaStatus::converged;
       if (is_corner(face, point.w) || !polytope_.grow(polytope_.add_point(point), number)) return EpaStatus::stalled;
@@ -97,15 +97,20 @@ class Epa {
 
   /// The answer at the limit: the best direction so far; with none yet, the nearest face's.
   EpaStatus limit_reached(int number, const Face& face) {
-    if (result_.face < 0) offer(number, face, face.normal.dot(query(face.normal, Phase::epa).w));
+    if (result_.face < 0) {
+      const Point point = query(face.normal, Phase::epa);
+      offer(number, face, face.normal.dot(point.w), point);
+    }
     return EpaStatus::iteration_limit;
   }
 
   /// Keeps the direction with the least support: the depth is at most `height`. The nearest face bounds it from below.
-  void offer(int number, const Face& face, S height) {
+  void offer(int number, const Face& face, S height, const Point& point) {
     lower_ = face.distance;
     const bool better = (height < best_height_) | (result_.face < 0);
+    const S reach_a = face.normal.dot(point.a);
     best_height_ = better ? height : best_height_;
+    reach_a_ = better ? reach_a : reach_a_;
     result_.face = better ? number : result_.face;
   }
 
@@ -253,7 +258,7 @@ class Epa {
       const Point point = query(face.normal, Phase::seed);
       const S height = face.normal.dot(point.w);
       if (height < 0 && height - face.distance <= floor_) {
-        offer(number, face, height);
+        offer(number, face, height, point);
         return false;
       }
       if (!polytope_.grow(polytope_.add_point(point), number)) return true;
@@ -307,6 +312,11 @@ class Epa {
       result_.point_a += weights[i] * polytope_.points()[vertices[i]].a;
       result_.point_b += weights[i] * polytope_.points()[vertices[i]].b;
     }
+    if (difference_.polytope()) return;
+    // Of round bodies these lie within the chords; each body reaches as far along the normal as its support did.
+    const V& n = result_.normal;
+    result_.point_a += n * (reach_a_ - n.dot(result_.point_a));
+    result_.point_b += n * (reach_a_ - best_height_ - n.dot(result_.point_b));
   }
 
   /// How far from the origin a point of A - B lies: the plane of a face alone would be nearer, where the origin is beside the face.
@@ -382,6 +392,7 @@ class Epa {
   const S floor_;
   EpaResult<D, S> result_;
   S best_height_ = std::numeric_limits<S>::infinity();
+  S reach_a_ = 0;  ///< of A along the direction of the best height: B's share is the rest
   S lower_ = 0;
   V flat_normal_ = V::Zero();
 };

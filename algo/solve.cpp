@@ -78,11 +78,28 @@ void merge(std::optional<Result>& total, const Result& part) {
   total = merged;
 }
 
+/// Of all parts that are touched along the answer's normal: what lies on several triangles of a flat is a contact with each.
+std::vector<ContactPoint> joined_contacts(const std::vector<Result>& parts, const Result& total) {
+  if (parts.size() == 1) return *parts[0].contacts;
+  std::vector<ContactPoint> contacts;
+  double size = 0;
+  for (const Result& part : parts) {
+    if ((*part.normal - *total.normal).norm() > 1e-6) continue;
+    for (const ContactPoint& point : *part.contacts) {
+      size = std::max(size, (point.point_a - *total.witness_a).norm());
+      const auto same = [&](const ContactPoint& other) { return (other.point_a - point.point_a).norm() <= 1e-9 * size; };
+      if (std::none_of(contacts.begin(), contacts.end(), same)) contacts.push_back(point);
+    }
+  }
+  return contacts;
+}
+
 template <int D, class S>
 Result solve_scene(const Scene& scene, const Settings& settings, TraceSink* sink, TraceNumbers& numbers, std::vector<SimplexPoint>* simplex) {
   const Body &a = scene.bodies[0], &b = scene.bodies[1];
   const std::vector<Shape> parts_a = convex_parts(a.shape), parts_b = convex_parts(b.shape);
   std::optional<Result> total;
+  std::vector<Result> parts;
   std::vector<SimplexPoint> none;
   if (parts_a.size() * parts_b.size() > 1) simplex = &none;
   for (const Shape& part_a : parts_a)
@@ -94,8 +111,9 @@ Result solve_scene(const Scene& scene, const Settings& settings, TraceSink* sink
       if (scene.query == Query::contact && result.intersecting && result.normal) result.contacts = contact_points(one, other, result);
       merge(total, result);
       if (scene.query == Query::intersect && total->intersecting) return *total;
+      if (result.contacts) parts.push_back(std::move(result));
     }
-  if (scene.query == Query::contact && !total->contacts) total->contacts.emplace();
+  if (scene.query == Query::contact) total->contacts = joined_contacts(parts, *total);
   return *total;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "algo/motion.h"
 #include "recordings/check_context.h"
 #include "recordings/region_tests.h"
 #include "recordings/json_writing.h"
@@ -96,6 +97,24 @@ double CheckContext::height(const AnyVector& direction) const {
 double CheckContext::body_height(const AnyVector& direction) const {
   const AnyVector d = direction.stableNormalized();
   return d.dot((*a_)(d, true) - (*b_)(-d, true));
+}
+
+double CheckContext::apart_along(const AnyVector& direction) {
+  if (has_supports) return -body_height(direction);
+  const Scene& scene = recording.scene.scene;
+  if (nearest_.empty()) {
+    const double least = *reference().signed_distance + answer_tolerance();
+    for (const Shape& part_a : convex_parts(scene.bodies[0].shape))
+      for (const Shape& part_b : convex_parts(scene.bodies[1].shape)) {
+        Scene parts = scene;
+        parts.query = Query::penetration, parts.bodies[0].shape = part_a, parts.bodies[1].shape = part_b;
+        if (*solve(parts, resolve_settings({}, parts)).signed_distance <= least) nearest_.emplace_back(WorldSupport(parts.bodies[0], dimension), WorldSupport(parts.bodies[1], dimension));
+      }
+  }
+  const AnyVector d = direction.stableNormalized();
+  double apart = -std::numeric_limits<double>::infinity();
+  for (const auto& [a, b] : nearest_) apart = std::max(apart, d.dot(b(-d, true) - a(d, true)));
+  return apart;
 }
 
 double CheckContext::short_of_support(std::size_t body, const AnyVector& direction, const AnyVector& point) const {

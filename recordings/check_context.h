@@ -5,6 +5,8 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "recordings/check.h"
 #include "shapes/world_support.h"
@@ -47,6 +49,8 @@ class CheckContext {
   double height(const AnyVector& direction) const;
   /// The same over the bodies, radii included.
   double body_height(const AnyVector& direction) const;
+  /// Negative: how deep. Of meshes the triangles that are nearest to each other count, and of several the ones farthest apart so.
+  double apart_along(const AnyVector& direction);
 
   /// How far a point is from being a support of a body along a unit direction, or of its core: short of it, or beside the body.
   double short_of_support(std::size_t body, const AnyVector& direction, const AnyVector& point) const;
@@ -65,6 +69,7 @@ class CheckContext {
 
  private:
   std::optional<WorldSupport> a_, b_;
+  std::vector<std::pair<WorldSupport, WorldSupport>> nearest_;  ///< of meshes: the parts as near as the bodies
   double radius_ = 0;       ///< of both bodies
   bool told_cores_ = true;  ///< what `cores` is outside MPR
   std::optional<Result> reference_;

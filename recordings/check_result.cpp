@@ -70,9 +70,8 @@ struct Judge {
       c.find("wrong-normal", "The normal " + text_of(n) + " has length " + text_of(n.norm()) + " instead of 1.");
       return;
     }
-    if (!c.has_supports) return;
     const double slack = 10 * limit + (*right.upper_bound - *right.lower_bound);
-    const double along = -c.body_height(n), against = -c.body_height(-n);
+    const double along = c.apart_along(n), against = c.apart_along(-n);
     // What is not the best way out is one all the same: the bodies are as deep along it as is said.
     const bool as_said = !limited || !r.signed_distance || along >= *r.signed_distance - 10 * c.answer_tolerance();
     if (along >= sd - slack && as_said) return;
@@ -85,8 +84,7 @@ struct Judge {
   void witnesses() const {
     const Scene& scene = c.recording.scene.scene;
     const double slack = 10 * limit;
-    const bool convex = c.has_supports;
-    const double out_a = convex && r.witness_a ? outside(scene, 0, *r.witness_a) : 0, out_b = convex && r.witness_b ? outside(scene, 1, *r.witness_b) : 0;
+    const double out_a = r.witness_a ? outside(scene, 0, *r.witness_a) : 0, out_b = r.witness_b ? outside(scene, 1, *r.witness_b) : 0;
     if (out_a > slack || out_b > slack) {
       const bool a = out_a > slack;
       c.find("wrong-witness", std::string("witness_") + (a ? "a " : "b ") + text_of(a ? *r.witness_a : *r.witness_b) + " lies " + text_of(a ? out_a : out_b) + " outside its body. " +
@@ -102,7 +100,7 @@ struct Judge {
 
   /// Points of the bodies as far behind one another as is said, and no farther than the bodies are deep.
   void contacts() const {
-    if (!r.contacts || !r.normal || !c.has_supports) return;
+    if (!r.contacts || !r.normal) return;
     const Scene& scene = c.recording.scene.scene;
     const double slack = 1e-4 * c.size + 10 * limit;  // the face that is clipped lies across the normal to 4e-5
     if (r.contacts->empty() == r.intersecting && std::abs(*right.signed_distance) > limit)

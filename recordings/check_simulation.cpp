@@ -119,7 +119,7 @@ struct SimulationCheck {
       const double time = states++ * motion.time_step;
       if (std::abs(now->time - time) > 1e-9 * (1 + time)) c.find("wrong-time", "State " + std::to_string(states - 1) + " is at time " + text_of(now->time) + ", expected " + text_of(time) + ".");
       sums(*now);
-      if (before) advance(*before, *now, contacts, impulses, first_impulse);
+      if (before) advance(*before, *now, contacts, impulses, first_impulse), touches(*before, *now, contacts, impulses);
       else begins(*now);
       touched = !contacts.empty();
       contacts.clear(), impulses.clear();
@@ -150,6 +150,27 @@ struct SimulationCheck {
     }
     if (std::abs(state.energy - energy) > 1e-6 * scale + 1e-12) c.find("wrong-state", "The energy is given as " + text_of(state.energy) + "; places and velocities make it " + text_of(energy) + ".");
     if ((in_space(state.momentum) - momentum).norm() > 1e-9 * speed + 1e-12) c.find("wrong-state", "The momentum is given as " + text_of(state.momentum) + "; the velocities make it " + text_of(AnyVector(momentum)) + ".");
+  }
+
+  /// A contact is where both bodies are, at the time of the step, and its impulse pushes along its normal: apart.
+  void touches(const recorded::State& before, const recorded::State& now, const std::vector<const recorded::ContactFound*>& contacts, const std::vector<const recorded::ImpulseApplied*>& impulses) const {
+    const auto judge = [&](const auto& e, const char* what) {
+      const double h = motion.time_step;
+      if (std::min(std::abs(e.time - before.time), std::abs(e.time - now.time)) > 1e-9 * (1 + now.time)) return c.find("wrong-time", std::string(what) + " is at time " + text_of(e.time) + " in the step from " + text_of(before.time) + " to " + text_of(now.time) + ".");
+      for (const int k : e.pair) {
+        const auto i = static_cast<std::size_t>(k);
+        const double off = std::min((e.point - before.bodies[i].position).norm(), (e.point - now.bodies[i].position).norm());
+        const double reach = reach_of(scene.bodies[i].shape, scene.dimension), moves = 2 * h * (before.bodies[i].velocity.norm() + now.bodies[i].velocity.norm());
+        if (off > reach + moves + 1e-6 * c.size) return c.find("wrong-contact", std::string(what) + " is at " + text_of(e.point) + ", " + text_of(off) + " from body " + std::to_string(k) + ", which reaches " + text_of(reach) + ".");
+      }
+    };
+    for (const auto* e : contacts) judge(*e, "A contact");
+    for (const auto* e : impulses) {
+      judge(*e, "An impulse");
+      if (e->impulse.dot(e->normal) < -1e-9 * e->impulse.norm()) c.find("flipped-normal", "The impulse " + text_of(e->impulse) + " on body " + std::to_string(e->pair[1]) + " leads against its normal " + text_of(e->normal) + ": impulses push the second body along the normal, away from the first.");
+      for (const auto* contact : contacts)
+        if (contact->pair == e->pair && contact->point == e->point && (contact->normal - e->normal).norm() > 1e-9) c.find("wrong-normal", "The impulse at " + text_of(e->point) + " has the normal " + text_of(e->normal) + ", its contact " + text_of(contact->normal) + ".");
+    }
   }
 
   /// Velocities change by gravity and by the impulses, places by the velocities and by what contacts push apart.

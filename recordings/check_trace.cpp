@@ -52,10 +52,15 @@ void TraceCheck::phases(const Event& event) {
   const std::string_view kind = kind_name(event), inside = std::visit(PhaseOf{}, event);
   const bool begins = kind.ends_with("_began"), ends = kind.ends_with("_ended");
   const std::string_view phase = begins || ends ? kind.substr(0, kind.size() - 6) : inside;
-  if (phase.empty()) return;
+  if (phase.empty()) {
+    const bool of_motion = std::holds_alternative<recorded::State>(event) || std::holds_alternative<recorded::ContactFound>(event) || std::holds_alternative<recorded::ImpulseApplied>(event);
+    if (of_motion && !c_.recording.scene.scene.motion) c_.find("wrong-state", "The bodies of this scene do not move: it has no \"" + std::string(kind) + "\".");
+    return;
+  }
   any_ = true;
   if (phase == moving) {
     if (ends && moved_) incomplete("The cast ends a second time.");
+    else if (ends && !motion_open_) incomplete(std::string(kind) + " stands outside any cast: none has begun.");
     moved_ = moved_ || ends;
     motion_open_ = !ends;
     return;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "recordings/json_reading.h"
 #include "recordings/scene_file.h"
@@ -6,6 +7,9 @@
 
 namespace gjkdbg {
 namespace {
+
+/// An angle of a rotation. Whole turns are taken off while they are exact, in degrees.
+double turn_from_degrees(double degrees) { return radians_from_degrees(std::abs(degrees) > 360 ? std::fmod(degrees, 360) : degrees); }
 
 constexpr int deepest_sum = 16;
 
@@ -307,11 +311,11 @@ class SceneReader {
     } else if (const Json* m = o.optional("matrix")) {
       r = matrix(*m, o.at("matrix"));
     } else if (const Json* a = o.optional("axis")) {
-      r = AxisAngle{read_vector(*a, o.at("axis"), 3), radians_from_degrees(number(o, "angle"))};
+      r = AxisAngle{read_vector(*a, o.at("axis"), 3), turn_from_degrees(number(o, "angle"))};
     } else if (const Json* e = o.optional("euler")) {
       r = euler(*e, o.at("euler"));
     } else {
-      r = PlaneAngle{radians_from_degrees(number(o, "angle"))};
+      r = PlaneAngle{turn_from_degrees(number(o, "angle"))};
     }
     o.finish();
     return r;
@@ -339,7 +343,7 @@ class SceneReader {
     if (const Json* frame = o.optional("frame"))
       e.intrinsic = read_enum(*frame, o.at("frame"), std::array<std::string_view, 2>{"intrinsic", "extrinsic"}) == 0;
     const AnyVector angles = read_vector(o.required("angles"), o.at("angles"), 3);
-    for (int i = 0; i < 3; ++i) e.angles[static_cast<std::size_t>(i)] = radians_from_degrees(angles[i]);
+    for (int i = 0; i < 3; ++i) e.angles[static_cast<std::size_t>(i)] = turn_from_degrees(angles[i]);
     o.finish();
     return e;
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "shapes/error.h"
 #include "shapes/input_file.h"
@@ -48,10 +49,19 @@ void check_face(std::istream& words, std::size_t so_far, std::size_t in_all, con
   if (corners < 3) throw Error("bad-mesh", "a face needs three vertices", place);
 }
 
-/// Line by line, what comes before a #; and without the mark some editors put before everything.
+/// Line by line, what comes before a #; and without the mark some editors put before everything. A line that ends in \ goes on in the next:
+/// the statement is written as one, and as many empty lines follow it.
 std::string without_comments(std::istream& in) {
-  std::string out;
-  for (std::string line; std::getline(in, line); out += '\n') out += line.substr(0, line.find('#'));
+  std::string out, owed;
+  for (std::string line; std::getline(in, line);) {
+    line.resize(std::min(line.size(), line.find('#')));
+    line.resize(line.find_last_not_of(" \t\r") + 1);
+    const bool goes_on = line.ends_with('\\');
+    if (goes_on) line.back() = ' ', owed += '\n';
+    out += line;
+    if (!goes_on) out += '\n' + std::exchange(owed, "");
+  }
+  out += owed;
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   return out.starts_with(byte_order_mark) ? out.substr(byte_order_mark.size()) : out;
 }

@@ -201,6 +201,7 @@ struct Exacting {
 
   double rounding_floor() const { return 1e-300; }
   double radius() const { return 0; }
+  bool polytope() const { return true; }
   SupportPoint<2, double> support(const Vector<2, double>& d) {
     SupportPoint<2, double> p;
     p.w = *std::max_element(corners.begin(), corners.end(), [&](const auto& x, const auto& y) { return d.dot(x) < d.dot(y); });
