@@ -26,7 +26,7 @@ NearestPoint nearest_point(const std::vector<AnyVector>& points) {
 
 std::string text_of(double x) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x);
+  std::snprintf(text, sizeof text, "%.6g", x == 0 ? 0.0 : x);
   return text;
 }
 

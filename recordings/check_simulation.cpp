@@ -101,6 +101,7 @@ struct SimulationCheck {
     const recorded::State* before = nullptr;
     std::vector<const recorded::ContactFound*> contacts;
     std::vector<const recorded::ImpulseApplied*> impulses;
+    std::vector<std::size_t> touching;
     std::size_t first_impulse = 0;
     int states = 0;
     bool touched = false;
@@ -113,16 +114,17 @@ struct SimulationCheck {
       if (contact) contacts.push_back(contact);
       if (impulse && impulses.empty()) first_impulse = i;
       if (impulse) impulses.push_back(impulse);
+      if (contact || impulse) touching.push_back(i);
       const auto* now = std::get_if<recorded::State>(&event);
       if (!now) continue;
       if (now->bodies.size() != scene.bodies.size()) return c.find("wrong-state", "There are " + std::to_string(now->bodies.size()) + " bodies; the scene has " + std::to_string(scene.bodies.size()) + ".");
       const double time = states++ * motion.time_step;
       if (std::abs(now->time - time) > 1e-9 * (1 + time)) c.find("wrong-time", "State " + std::to_string(states - 1) + " is at time " + text_of(now->time) + ", expected " + text_of(time) + ".");
       sums(*now);
-      if (before) advance(*before, *now, contacts, impulses, first_impulse), touches(*before, *now, contacts, impulses);
+      if (before) advance(*before, *now, contacts, impulses, first_impulse), touches(*before, *now, touching);
       else begins(*now);
       touched = !contacts.empty();
-      contacts.clear(), impulses.clear();
+      contacts.clear(), impulses.clear(), touching.clear();
       before = now;
     }
     if (before) result(*before, states, touched);
@@ -153,7 +155,9 @@ struct SimulationCheck {
   }
 
   /// A contact is where both bodies are, at the time of the step, and its impulse pushes along its normal: apart.
-  void touches(const recorded::State& before, const recorded::State& now, const std::vector<const recorded::ContactFound*>& contacts, const std::vector<const recorded::ImpulseApplied*>& impulses) const {
+  /// `steps`: between the two states.
+  void touches(const recorded::State& before, const recorded::State& now, const std::vector<std::size_t>& steps) const {
+    std::vector<const recorded::ContactFound*> contacts;
     const auto judge = [&](const auto& e, const char* what) {
       const double h = motion.time_step;
       if (std::min(std::abs(e.time - before.time), std::abs(e.time - now.time)) > 1e-9 * (1 + now.time)) return c.find("wrong-time", std::string(what) + " is at time " + text_of(e.time) + " in the step from " + text_of(before.time) + " to " + text_of(now.time) + ".");
@@ -164,13 +168,18 @@ struct SimulationCheck {
         if (off > reach + moves + 1e-6 * c.size) return c.find("wrong-contact", std::string(what) + " is at " + text_of(e.point) + ", " + text_of(off) + " from body " + std::to_string(k) + ", which reaches " + text_of(reach) + ".");
       }
     };
-    for (const auto* e : contacts) judge(*e, "A contact");
-    for (const auto* e : impulses) {
+    const std::size_t here = c.step;
+    for (const std::size_t step : steps) {
+      c.step = step;
+      if (const auto* contact = std::get_if<recorded::ContactFound>(&c.recording.events[step])) judge(*contact, "A contact"), contacts.push_back(contact);
+      const auto* e = std::get_if<recorded::ImpulseApplied>(&c.recording.events[step]);
+      if (!e) continue;
       judge(*e, "An impulse");
       if (e->impulse.dot(e->normal) < -1e-9 * e->impulse.norm()) c.find("flipped-normal", "The impulse " + text_of(e->impulse) + " on body " + std::to_string(e->pair[1]) + " leads against its normal " + text_of(e->normal) + ": impulses push the second body along the normal, away from the first.");
       for (const auto* contact : contacts)
         if (contact->pair == e->pair && contact->point == e->point && (contact->normal - e->normal).norm() > 1e-9) c.find("wrong-normal", "The impulse at " + text_of(e->point) + " has the normal " + text_of(e->normal) + ", its contact " + text_of(contact->normal) + ".");
     }
+    c.step = here;
   }
 
   /// Velocities change by gravity and by the impulses, places by the velocities and by what contacts push apart.

@@ -2,6 +2,7 @@
 // the normal numbers.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -58,6 +59,52 @@ TEST(EdgeCases, ACornerWithinAnEdgeCutsNoContactOff) {
     ASSERT_EQ(r.contacts->size(), 2u) << degrees;
     EXPECT_NEAR(((*r.contacts)[0].point_a - (*r.contacts)[1].point_a).norm(), 4, 1e-9) << degrees;
   }
+}
+
+/// How far a point is from a body's border, negative inside.
+double off_border(const Body& body, const AnyVector& point, int dimension) {
+  Scene probe;
+  probe.dimension = dimension, probe.query = Query::penetration;
+  probe.bodies = {body, Body{"", {PointSet{PointSetKind::point, {AnyVector::Zero(dimension)}, {}}, 0}, identity_pose(dimension)}};
+  probe.bodies[1].pose.position = point;
+  return *run(probe, {}).signed_distance;
+}
+
+TEST(EdgeCases, WitnessesOfRoundDepthsLieOnTheBodies) {
+  RandomScenes random(5);
+  double worst = 0;
+  for (int k = 0; k < 400; ++k) {
+    const auto ellipse = [&] {
+      return R"({"shape": {"type": "ellipse", "radii": [)" + std::to_string(random.uniform(0.2, 1.5)) + ", " + std::to_string(random.uniform(0.2, 1.5)) + R"(]}, "pose": {"position": [)" +
+             std::to_string(random.uniform(-0.5, 0.5)) + ", " + std::to_string(random.uniform(-0.5, 0.5)) + R"(], "rotation": {"angle": )" + std::to_string(random.uniform(0, 360)) + "}}}";
+    };
+    const Scene scene = scene_of(R"("dimension": 2, "query": "penetration", "bodies": [)" + ellipse() + ", " + ellipse() + "]");
+    const Result r = run(scene, {});
+    if (!r.intersecting) continue;
+    worst = std::max({worst, std::abs(off_border(scene.bodies[0], *r.witness_a, 2)), std::abs(off_border(scene.bodies[1], *r.witness_b, 2))});
+  }
+  EXPECT_LT(worst, 1e-9);  // at a tolerance of 1e-10; 2e-6 where they lay on the chord
+}
+
+TEST(EdgeCases, AFlatOfTwoTrianglesGivesTheWholeContact) {
+  const Scene scene = scene_of(R"("dimension": 3, "query": "contact", "bodies": [
+    {"shape": {"type": "mesh", "points": [[-2, 0, -2], [2, 0, -2], [2, 0, 2], [-2, 0, 2]], "triangles": [[0, 2, 1], [0, 3, 2]]}},
+    {"shape": {"type": "box", "half_extents": [0.5, 0.5, 0.5]}, "pose": {"position": [0, 0.49, 0]}}])");
+  const Result r = run(scene, {});
+  ASSERT_EQ(r.contacts->size(), 4u);
+  for (const ContactPoint& p : *r.contacts) {
+    EXPECT_NEAR(p.depth, 0.01, 1e-12);
+    EXPECT_NEAR(std::abs(p.point_a[0]), 0.5, 1e-12);
+    EXPECT_NEAR(std::abs(p.point_a[2]), 0.5, 1e-12);
+  }
+}
+
+TEST(EdgeCases, WholeTurnsAreTakenOffInDegrees) {
+  const auto turned = [](const std::string& angle) {
+    return scene_of(R"("dimension": 2, "query": "distance", "bodies": [{"shape": {"type": "circle", "radius": 1}, "pose": {"rotation": {"angle": )" + angle + R"(}}}, {"shape": {"type": "circle", "radius": 1}}])").bodies[0].pose.matrix;
+  };
+  EXPECT_EQ(turned("3600000000280"), turned("280"));
+  EXPECT_EQ(turned("-100000000000000000"), turned("-280"));
 }
 
 TEST(EdgeCases, BoundsHoldTheDepthOfConcentricBalls) {

@@ -270,6 +270,8 @@ TEST(Obj, IsReadOrRefusedWithItsLine) {
   EXPECT_EQ(obj(corners + "f 1 2\n"), "line 7 bad-mesh");
   EXPECT_EQ(obj(corners + "f 1 2 3 # comments may stand anywhere\n"), "4 points, 1 triangles");
   EXPECT_EQ(obj(corners + "f 1 2 # 3\n"), "line 7 bad-mesh");
+  EXPECT_EQ(obj(corners + "f 1 2 \\\n 4\nf 1 2 3\n"), "4 points, 2 triangles") << "a statement may go on in the next line";
+  EXPECT_EQ(obj(corners + "f 1 2 \\\n 4\nf 1 2\n"), "line 9 bad-mesh");
   EXPECT_EQ(obj("\xEF\xBB\xBF" + corners), "4 points, 0 triangles") << "a byte order mark";
   EXPECT_EQ(obj("\xEF\xBB\xBFv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0\n"), "line 4 bad-mesh");
   EXPECT_EQ(obj(corners + "f 1 2 x\n"), "line 7 bad-mesh");
