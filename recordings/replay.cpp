@@ -38,6 +38,10 @@ struct Apply {
       frame.simplex.insert(frame.simplex.begin(), e.vertex);
       frame.barycentric.clear();
       frame.closest.reset();
+    } else if (e.phase == Phase::cast) {
+      frame.stage = Frame::Stage::gjk;
+      const double began = last_state_time();  // the ray's supports are those of the bodies where the cast began
+      places_after(began, began);
     } else if (e.phase == Phase::mpr || e.phase == Phase::sat) {
       frame.stage = e.phase == Phase::mpr ? Frame::Stage::mpr : Frame::Stage::sat;
     } else {
@@ -71,7 +75,7 @@ struct Apply {
 
   void operator()(const recorded::PolytopeSeeded& e) {
     frame.stage = Frame::Stage::epa;
-    frame.simplex.clear(), frame.seeds.clear(), frame.barycentric.clear(), frame.closest.reset();
+    frame.simplex.clear(), frame.seeds.clear(), frame.barycentric.clear(), frame.closest.reset(), frame.direction.reset(), frame.newest.reset();
     frame.iteration = 0;
     frame.faces.clear();
     add(e.faces);

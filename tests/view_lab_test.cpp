@@ -88,7 +88,7 @@ TEST_F(Lab, ACellOpensTheSceneThatFails) {
   EXPECT_EQ(app.lab_tab, App::LabTab::atlas);
   host.frame(), host.frame();
   ASSERT_TRUE(click_until_open(190, 170, 200, 300, 8));
-  EXPECT_EQ(session.title(), "atlas-K1");
+  EXPECT_EQ(session.title(), "K1, MPR");
   EXPECT_TRUE(session.step() + 1 == session.count() || !session.findings().empty());
 }
 

@@ -187,7 +187,7 @@ TEST_F(Window, ShowsEverySceneOfTheGallery) {
         host.frame();
         EXPECT_FALSE(explain(session.recording(), session.frame()).text.empty());
         const PseudoCode code = pseudo_code(session.recording(), step);
-        const bool no_line = std::holds_alternative<recorded::Warning>(session.recording().events[step]) || explain(session.recording(), session.frame()).title.ends_with("iteration_limit");
+        const bool no_line = std::holds_alternative<recorded::Warning>(session.recording().events[step]) || explain(session.recording(), session.frame()).title.ends_with("iteration limit");
         EXPECT_EQ(code.current == -1, no_line) << name << " " << step;
         EXPECT_LT(code.current, static_cast<int>(code.lines.size()));
       }

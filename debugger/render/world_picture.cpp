@@ -160,7 +160,7 @@ class WorldPainter : public Painter {
       if (!newest) continue;
       label(a, "a", palette_.support);
       label(b, "b", palette_.support, 9, 10);
-      if (!frame_.direction || frame_.depth) continue;
+      if (!frame_.direction || !frame_.answered || frame_.depth) continue;  // the next direction is not theirs
       const ViewPoint d = arrow_along(*frame_.direction);
       if (d.isZero(0)) continue;
       picture_.arrow(a, a + d, palette_.simplex);

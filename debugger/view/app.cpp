@@ -199,6 +199,16 @@ void App::lecture_panel(const Area& area) {
   ImGui::EndChild();
 }
 
+namespace {
+
+/// Whether a finding says that the answer is wrong, not only a step on the way.
+bool about_the_answer(const Finding& f) {
+  static const char* const codes[] = {"wrong-answer", "wrong-distance", "wrong-depth", "wrong-normal", "flipped-normal", "wrong-witness", "wrong-bounds", "wrong-contact", "unjustified-separation"};
+  return std::find(std::begin(codes), std::end(codes), f.code) != std::end(codes);
+}
+
+}  // namespace
+
 void App::top_bar(const Area& area) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {theme.px(16), theme.px(9)});
   begin_area("top", area);
@@ -226,25 +236,30 @@ void App::top_bar(const Area& area) {
   if (session.is_open()) {
     const bool simulated = session.scene().scene.query == Query::simulate;
     const auto& findings = session.findings();
-    const bool open = undecided(session.recording().result), wrong = !open && std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Finding::Severity::error; });
+    const auto errors = std::count_if(findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Finding::Severity::error; });
+    const bool open = undecided(session.recording().result), wrong = !open && std::any_of(findings.begin(), findings.end(), about_the_answer);
     const bool neutral = !wrong && (simulated || open);
-    const std::string result = (wrong ? "wrong: " : "") + result_text(session.recording());
+    const std::string found = wrong || errors == 0 ? "" : errors == 1 ? "  \xC2\xB7  1 finding" : "  \xC2\xB7  " + std::to_string(errors) + " findings";
+    const std::string result = (wrong ? "wrong: " : "") + result_text(session.recording()) + found, name = session.title() + (session.can_undo() ? " (edited)" : "");
     const Colour tone = neutral ? theme.palette.text_soft : wrong || session.recording().result.intersecting ? theme.palette.newest : theme.palette.support;
     std::string method = method_text(session.recording().settings) + "  \xC2\xB7  " + std::string(query_names[static_cast<std::size_t>(session.scene().scene.query)]);
     const auto width = [&](const std::string& text) { return theme.small->CalcTextSizeA(theme.small->FontSize, 1e6f, 0, text.c_str()).x + theme.px(22); };
-    const float here = ImGui::GetItemRectMax().x + theme.px(16), title = ImGui::CalcTextSize(session.title().c_str()).x, middle = area.width / 2 - title / 2;
+    const float here = ImGui::GetItemRectMax().x + theme.px(16), title = ImGui::CalcTextSize(name.c_str()).x, middle = area.width / 2 - title / 2;
     const auto both = [&] { return width(result) + width(method) + theme.px(8); };
     const auto too_wide = [&] { return area.width - both() - theme.px(16) < here; };
     if (too_wide()) method = method_text(session.recording().settings);  // a narrow window: the query is left out, then all but the name
     if (too_wide()) method = method_names[static_cast<std::size_t>(session.recording().settings.name)];
-    const float chips = both();
+    const bool alone = too_wide();  // not even that
+    const float chips = alone ? width(result) : both();
     if (std::max(middle, here) + title < area.width - chips - theme.px(24)) {
       ImGui::SameLine(std::max(middle, here));
-      ImGui::TextUnformatted(session.title().c_str());
+      ImGui::TextUnformatted(name.c_str());
     }
     ImGui::SameLine(area.width - chips - theme.px(16));
-    chip(theme, method, theme.palette.accent);
-    ImGui::SameLine(0, theme.px(8));
+    if (!alone) {
+      chip(theme, method, theme.palette.accent);
+      ImGui::SameLine(0, theme.px(8));
+    }
     chip(theme, result, tone);
   }
   ImGui::EndChild();

@@ -127,6 +127,7 @@ Condition::Condition(std::string_view text) : text_(text) {
       clause.word = tokens[i++];
       const auto [end, error] = std::from_chars(clause.word.data(), clause.word.data() + clause.word.size(), clause.number);
       clause.is_number = error == std::errc() && end == clause.word.data() + clause.word.size();
+      if (!clause.is_number && clause.compare != "==" && clause.compare != "!=") bad("\"" + clause.word + "\" is no number: " + clause.compare + " compares numbers");
     }
     any_of_.back().push_back(clause);
     if (i >= tokens.size()) break;

@@ -10,6 +10,13 @@ namespace gjkdbg {
 
 namespace {
 
+/// "iteration_limit": iteration limit.
+std::string in_words(std::string_view name) {
+  std::string words(name);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
 std::string feature_name(std::size_t vertices) {
   static const char* const names[] = {"nothing", "vertex", "edge", "triangle", "tetrahedron"};
   return vertices < 5 ? names[vertices] : "simplex";
@@ -24,7 +31,7 @@ std::string sentence(GjkStatus status, const recorded::GjkEnded& e) {
     case GjkStatus::within_radius: return "The cores are apart, but nearer than the radii around them: the bodies overlap, and no more was asked.";
     case GjkStatus::enclosed: return "The simplex encloses the origin: some point of A is also a point of B. The cores overlap.";
     case GjkStatus::touching: return "The origin lies on the simplex, within rounding: on a vertex, an edge or a face. Whether this is touch or overlap, EPA will tell.";
-    case GjkStatus::stalled: return "|v| no longer falls: the precision is used up. The bounds say how much is known.";
+    case GjkStatus::stalled: return "|v| no longer falls: the precision is used up, or the method's own rule stops it. The bounds say how much is known.";
     case GjkStatus::iteration_limit: return "The iteration limit is reached before the bounds met. This is no answer; the bounds say how much is known.";
     case GjkStatus::rule_met: return "The stopping rule of the method is met. Bounds that have not met say that it stopped early.";
     case GjkStatus::aborted: return "The solver ended without an answer.";
@@ -81,13 +88,26 @@ struct Explain {
     return text;
   }
 
+  /// Whether the bodies have radii around their cores.
+  bool rounded() const {
+    const auto& bodies = recording.scene.scene.bodies;
+    return std::any_of(bodies.begin(), bodies.end(), [](const Body& b) { return b.shape.margin > 0 || std::holds_alternative<Sphere>(b.shape.geometry) || std::holds_alternative<Capsule>(b.shape.geometry); });
+  }
+
+  /// Where GJK begins when it is not told.
+  std::string first_way(const AnyVector& direction) const {
+    const auto& bodies = recording.scene.scene.bodies;
+    const bool fallback = bodies.size() == 2 && bodies[0].pose.position == bodies[1].pose.position && direction.tail(direction.size() - 1).isZero(0);
+    return fallback ? ", for the bodies' positions coincide. Any direction but zero would do." : ", from A towards B. Any direction but zero would do.";
+  }
+
   bool foreign() const { return !recording.generator.starts_with("gjkdbg "); }
 
   Explanation operator()(const recorded::GjkBegan& e) const {
     if (frame.step + 1 < recording.events.size() && std::holds_alternative<recorded::VertexKept>(recording.events[frame.step + 1]))
       return {"GJK begins, warm", "It starts from the simplex the last run on these bodies ended with. If they have moved little, it is nearly right already."};
     return {"GJK begins", "The search starts along d = " + short_vector(e.direction) +
-                              (recording.settings.initial_direction ? ", as the method says." : foreign() ? ", as the solver chose. Any direction but zero would do." : ", from A towards B. Any direction but zero would do.")};
+                              (recording.settings.initial_direction ? ", as the method says." : foreign() ? ", as the solver chose. Any direction but zero would do." : first_way(e.direction))};
   }
 
   Explanation operator()(const recorded::VertexKept& e) const {
@@ -100,12 +120,13 @@ struct Explain {
     if (e.phase == Phase::mpr)
       return {"Support for the portal", where + (e.direction.dot(e.w) < 0 ? "It lies short of the origin: its plane proves the bodies apart."
                                                                          : "It lies at or past the origin along d, so this plane does not separate the bodies.")};
+    if (e.phase == Phase::cast) return {"Support for the ray", where + "Nothing of A - B lies beyond the plane there: if the point x on the ray still does, x moves on to that plane."};
     if (e.phase == Phase::sat) return {"Support along an axis", where + "How far it reaches past the origin is how far the bodies overlap along this axis."};
     if (e.phase == Phase::epa) return {"Support across the chosen face", where + reach_across(e)};
     const double along = e.direction.stableNormalized().dot(e.w);
     if (frame.simplex.size() <= 1) return {"First support", where + "One corner of the difference is a start: the simplex is this point."};
     const auto [title, why] = way(e.direction);
-    return {title, why + where + (along < 0 ? "It lies " + short_number(-along) + " short of the origin along d: all of A - B does, so the bodies are at least that far apart (radii aside)."
+    return {title, why + where + (along < 0 ? "It lies " + short_number(-along) + " short of the origin along d: all of A - B does, so the " + (rounded() ? "cores" : "bodies") + " are at least that far apart."
                                                               : "It lies at or past the origin along d, so nothing is proven yet.")};
   }
 
@@ -161,11 +182,13 @@ struct Explain {
   }
 
   Explanation operator()(const recorded::GjkEnded& e) const {
-    return {"GJK ends: " + std::string(gjk_status_names[static_cast<std::size_t>(e.status)]), sentence(e.status, e)};
+    if (foreign() && e.status != GjkStatus::aborted)
+      return {"The solver ends", std::string("It takes the bodies to be ") + (e.status == GjkStatus::enclosed || e.status == GjkStatus::touching || e.status == GjkStatus::within_radius ? "overlapping." : "apart.")};
+    return {"GJK ends: " + in_words(gjk_status_names[static_cast<std::size_t>(e.status)]), sentence(e.status, e)};
   }
 
   Explanation operator()(const recorded::PolytopeSeeded& e) const {
-    return {"EPA begins with " + std::to_string(e.faces.size()) + " faces",
+    return {"EPA begins with " + std::to_string(e.faces.size()) + (recording.scene.scene.dimension == 2 ? " edges" : " faces"),
             "A polytope inside A - B that holds the origin. It grows outwards until its nearest face is part of the boundary; that face's distance is the depth."};
   }
 
@@ -180,7 +203,7 @@ struct Explain {
   }
 
   Explanation operator()(const recorded::EpaEnded& e) const {
-    return {"EPA ends: " + std::string(epa_status_names[static_cast<std::size_t>(e.status)]), sentence(e.status, e)};
+    return {"EPA ends: " + in_words(epa_status_names[static_cast<std::size_t>(e.status)]), sentence(e.status, e)};
   }
 
   Explanation operator()(const recorded::MprBegan& e) const {
@@ -193,7 +216,7 @@ struct Explain {
   }
 
   Explanation operator()(const recorded::MprEnded& e) const {
-    const std::string title = "MPR ends: " + std::string(mpr_status_names[static_cast<std::size_t>(e.status)]);
+    const std::string title = "MPR ends: " + in_words(mpr_status_names[static_cast<std::size_t>(e.status)]);
     switch (e.status) {
       case MprStatus::separated: return {title, "The plane of the last support has all of A - B on its far side: the bodies are apart, by at least " + short_number(-e.depth) + ". How far, MPR does not know."};
       case MprStatus::overlapping: return {title, "The origin lies inside a portal: the bodies overlap, and no more was asked."};
@@ -234,7 +257,7 @@ struct Explain {
   Explanation operator()(const recorded::ClosedFormBegan& e) const {
     const bool a = !e.edge_a.isZero(0), b = !e.edge_b.isZero(0);
     const std::string what = a && b ? "Both cores are segments: A - B is the parallelogram with the corner c = " : a || b ? "One core is a point, the other a segment: A - B is a segment from c = " : "Both cores are points: A - B is the point c = ";
-    return {"A formula instead of a search", what + short_vector(e.corner) + (a ? ", edge u = " + short_vector(e.edge_a) : "") + (b ? ", edge v = " + short_vector(e.edge_b) : "") + ". The radii are added afterwards."};
+    return {"A formula instead of a search", what + short_vector(e.corner) + (a ? ", edge u = " + short_vector(e.edge_a) : "") + (b ? std::string(a ? " and -v" : ", edge -v") + ", v = " + short_vector(e.edge_b) : "") + ". The radii are added afterwards."};
   }
 
   Explanation operator()(const recorded::LinesSolved& e) const {
@@ -262,8 +285,24 @@ struct Explain {
   Explanation operator()(const recorded::CastAdvanced& e) const {
     const std::string at = "At time " + short_number(e.time) + " " + body(e.pair[0]) + " and " + body(e.pair[1]) + " are " + short_number(e.distance) + " apart along " + short_vector(e.normal) + ". ";
     if (e.distance < 0) return {"Inside each other", body(e.pair[0]) + " and " + body(e.pair[1]) + " overlap by " + short_number(-e.distance) + " at time " + short_number(e.time) + ": they meet no later than that."};
+    if (they_meet()) return {"They meet", at + "That is within the tolerance, and they still approach: this is the time of impact."};
+    if (recording.settings.name == MethodName::root_finding)
+      if (const auto* next = next_advance(e.pair)) return {"Surely apart for a while", at + "They come nearer by at most " + short_number(e.bound) + " per unit of time; along this normal the gap stays open until " + short_number(next->time) + "."};
     if (e.bound <= 0) return {"This pair recedes", at + "Along this normal they do not come nearer any more, so it separates them for good: the pair is left out."};
     return {"Surely apart for a while", at + "They come nearer by at most " + short_number(e.bound) + " per unit of time, so until " + short_number(e.time + std::max(0.0, e.distance) / e.bound) + " they cannot meet."};
+  }
+
+  bool they_meet() const {
+    if (frame.step + 1 >= recording.events.size()) return false;
+    const Event& next = recording.events[frame.step + 1];
+    const auto* end = std::get_if<recorded::CastEnded>(&next);
+    return std::holds_alternative<recorded::ImpulseApplied>(next) || (end && end->status == CastStatus::hit);
+  }
+  /// Of the same pair, before anything responds.
+  const recorded::CastAdvanced* next_advance(const Edge& pair) const {
+    for (std::size_t i = frame.step + 1; i < recording.events.size() && !std::holds_alternative<recorded::State>(recording.events[i]); ++i)
+      if (const auto* next = std::get_if<recorded::CastAdvanced>(&recording.events[i]); next && next->pair == pair) return next;
+    return nullptr;
   }
 
   bool responded() const {
@@ -271,7 +310,7 @@ struct Explain {
   }
 
   Explanation operator()(const recorded::CastEnded& e) const {
-    const std::string title = "The cast ends: " + std::string(cast_status_names[static_cast<std::size_t>(e.status)]);
+    const std::string title = "The cast ends: " + in_words(cast_status_names[static_cast<std::size_t>(e.status)]);
     const std::string who = e.pair.size() == 2 ? body(e.pair[0]) + " and " + body(e.pair[1]) : "";
     switch (e.status) {
       case CastStatus::hit: return {title, "At time " + short_number(e.time) + " " + who + " are within the tolerance of each other and still approaching: this is the time of impact, early by no more than that."};

@@ -194,7 +194,11 @@ void tell_cell(App& app, const MeasuredAtlas& atlas, const MeasuredAtlas::Family
   if (cell.scene) ImGui::TextColored(vec(app.theme.palette.text_faint), "click: the simplest scene that fails so");
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
-  if (cell.scene && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) open_scene(app, *cell.scene, "atlas-" + family.name);
+  if (cell.scene && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+    SceneFile scene = *cell.scene;
+    scene.scene.description = atlas.methods[m] + ", " + atlas_verdicts[static_cast<std::size_t>(cell.verdict)] + ". " + cell.why;
+    open_scene(app, std::move(scene), family.name + ", " + atlas.methods[m]);
+  }
 }
 
 void atlas_area(App& app, ImVec2 at, ImVec2 size) {

@@ -75,7 +75,10 @@ void bounds_plot(App& app, float width, float height) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const ImVec2 at = plot_frame(theme, width, height, "gap between the bounds, log scale");
   const std::vector<Sample> samples = samples_of(s.recording()), others = s.comparing() ? samples_of(s.other()) : std::vector<Sample>();
-  if (samples.empty() && others.empty()) return;
+  if (samples.empty() && others.empty()) {
+    draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(12), at.y + theme.px(32)}, packed(p.text_faint), "This run tells no bounds.");
+    return;
+  }
   const Settings& settings = s.recording().settings;
   const double size = std::abs(s.recording().result.signed_distance.value_or(0));
   const double floor = s.scene().scene.bodies.size() < 2 ? 0 : 2 * rounding_floor(s.scene().scene, settings), tolerance = std::max(settings.tolerance * size, 0.0);

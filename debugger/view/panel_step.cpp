@@ -134,10 +134,10 @@ void counters(App& app) {
     grown += std::holds_alternative<recorded::PolytopeGrown>(s.recording().events[i]);
   }
   section(theme, "SO FAR");
-  std::string text = std::to_string(supports) + " supports";
+  std::string text = std::to_string(supports) + (supports == 1 ? " support" : " supports");
   if (cuts > 0) text += ", " + std::to_string(cuts) + (cuts == 1 ? " cut" : " cuts");
   if (grown > 0) text += ", " + std::to_string(grown) + " grown";
-  number_row(theme, "counted", text, theme.palette.text_soft);
+  number_row(theme, "in these steps", text, theme.palette.text_soft);
 }
 
 /// The run beside this one, at the same step.
@@ -181,7 +181,9 @@ void bounds(App& app) {
   const Frame& frame = app.session.frame();
   const Theme& theme = app.theme;
   if (!frame.lower_bound && !frame.upper_bound) return;
-  section(theme, mesh_parts(app.session.recording(), app.session.step()) ? "SIGNED DISTANCE TO THE TRIANGLE" : "SIGNED DISTANCE OF THE BODIES");
+  const Event& event = app.session.recording().events[app.session.step()];
+  const bool before = std::holds_alternative<recorded::SupportQueried>(event) || std::holds_alternative<recorded::PolytopeSeeded>(event) || std::holds_alternative<recorded::FaceChosen>(event);
+  section(theme, (std::string(mesh_parts(app.session.recording(), app.session.step()) ? "DISTANCE TO THE TRIANGLE" : "SIGNED DISTANCE") + (before ? ", BEFORE THIS STEP" : "")).c_str());
   const auto text = [](const std::optional<double>& x) { return x ? short_number(*x) : std::string("unknown"); };
   const auto from = last_of<recorded::SimplexReduced, recorded::GjkEnded, recorded::PolytopeGrown, recorded::PortalFound, recorded::AxisTested, recorded::PointsProjected, recorded::ClosedFormEnded>(app.session);
   number_row(app, "at most", text(frame.upper_bound), theme.palette.text, from);
@@ -234,7 +236,8 @@ void answer(App& app) {
   if (app.session.step() + 1 != app.session.count()) return;
   const Theme& theme = app.theme;
   const Result& r = app.session.recording().result;
-  section(theme, mesh_parts(app.session.recording(), app.session.step()) ? "RESULT, OF ALL TRIANGLES" : "RESULT");
+  const bool first_hit = app.session.scene().scene.query == Query::cast && r.touching_at;
+  section(theme, mesh_parts(app.session.recording(), app.session.step()) ? "RESULT, OF ALL TRIANGLES" : first_hit ? "RESULT: THE FIRST HIT" : "RESULT");
   if (r.time) number_row(theme, app.session.scene().scene.query == Query::cast ? "apart until" : "time", short_number(*r.time), theme.palette.text);
   if (r.touching_at) number_row(theme, "touching at", short_number(*r.touching_at), theme.palette.text);
   if (r.energy) number_row(theme, "energy", short_number(*r.energy), theme.palette.text);

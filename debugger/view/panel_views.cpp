@@ -122,6 +122,16 @@ void body_handles(App& app, const Projection& projection, ImDrawList* draw, Held
   }
 }
 
+/// Bodies that have moved on cannot be dragged, and keep their letters.
+void body_letters(App& app, const Projection& projection) {
+  const auto& places = app.session.frame().places;
+  for (int i = 0; i < static_cast<int>(places.size()); ++i) {
+    const ImVec2 c = at(projection(to_view(places[static_cast<std::size_t>(i)].position) + row_offset(i, app.session.meshes().dimension, projection)));
+    const Colour colour = i == 0 ? app.theme.palette.body_a : i == 1 ? app.theme.palette.body_b : app.theme.palette.text_soft;
+    ImGui::GetWindowDrawList()->AddText(app.theme.small, app.theme.small->FontSize, {c.x - app.theme.px(4), c.y - app.theme.px(7)}, packed(colour), body_letter(i).c_str());
+  }
+}
+
 /// Which run and which of its pictures a view shows.
 struct Shown {
   bool world = true;
@@ -156,6 +166,7 @@ void interact(App& app, const Area& area, const Shown& shown, Camera& camera, co
   ImGui::InvisibleButton("canvas", {area.width, area.height}, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   const bool movable = shown.world && !shown.other && (app.session.frame().places.empty() || app.session.step() == 0);
   if (movable) body_handles(app, projection, ImGui::GetWindowDrawList(), held);
+  else if (shown.world && !shown.other) body_letters(app, projection);
   if (!(movable && held.body >= 0)) steer(camera, projection), link_cameras(app, shown.world);
   if (!ImGui::IsItemHovered()) return;
   const auto under = vertex_under(items, ImGui::GetIO().MousePos, theme.px(11));

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "algo/solve.h"
+#include "debugger/view/explain.h"
 #include "recordings/json_reading.h"
 
 namespace gjkdbg {
@@ -256,7 +257,17 @@ Recording Session::record_from_here(SceneFile next) const {
 
 std::string Session::edit(const SceneFile& next) {
   try {
-    for (const Body& body : next.scene.bodies) validate(body.shape, next.scene.dimension);
+    for (std::size_t i = 0; i < next.scene.bodies.size(); ++i) {
+      try {
+        validate(next.scene.bodies[i].shape, next.scene.dimension);
+      } catch (const Error& e) {
+        // As the panel calls it: "A: half extents must not be negative".
+        std::string field = e.where().substr(std::min<std::size_t>(1, e.where().size()));
+        field.resize(std::min(field.size(), field.find('/')));
+        std::replace(field.begin(), field.end(), '_', ' ');
+        return body_letter(static_cast<int>(i)) + ": " + field + (field.empty() ? "" : " ") + e.message();
+      }
+    }
     Recording recording = record_from_here(next);
     const SceneFile before = recording_.scene;
     take(std::move(recording));

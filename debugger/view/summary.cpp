@@ -18,7 +18,8 @@ std::string short_vector(const AnyVector& v) {
   std::string out = "(";
   for (Eigen::Index i = 0; i < v.size(); ++i) {
     char text[32];
-    std::snprintf(text, sizeof text, "%.4g", v[i] == 0 ? 0.0 : v[i]);
+    const bool nothing = std::abs(v[i]) <= 4e-16 * v.cwiseAbs().maxCoeff();  // beside the rest
+    std::snprintf(text, sizeof text, "%.4g", nothing ? 0.0 : v[i]);
     out += (i > 0 ? ", " : "") + std::string(text);
   }
   return out + ")";
