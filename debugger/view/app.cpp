@@ -55,6 +55,11 @@ void App::fit_views() {
   difference_camera.yaw = difference.yaw, difference_camera.pitch = difference.pitch;
 }
 
+void App::fit_what_has_left() {
+  const auto left = [](const Camera& all, const Camera& now) { return (all.target - now.target).norm() + all.radius > 2 * now.radius; };
+  if (left(fit_world(session.meshes(), session.recording()), world_camera) || left(fit_difference(session.meshes(), session.recording()), difference_camera)) fit_views();
+}
+
 void App::frame() {
   session.tick(ImGui::GetIO().DeltaTime);
   thumbnails_.next_frame();

@@ -58,6 +58,8 @@ class App {
   /// Whether the next frame would differ without any input: something plays, or a notice fades.
   bool moving() const { return session.playing || notice_left_ > 0 || thumbnails_.busy(); }
   void fit_views();
+  /// Where an edit has taken a body out of the views.
+  void fit_what_has_left();
   void note(std::string text) { notice = std::move(text), notice_left_ = 3; }
 
   enum class Asking { nothing, open, save, compare, find, go_to };

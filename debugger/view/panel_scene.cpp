@@ -347,6 +347,7 @@ void scene_panel(App& app) {
   if (edited) {
     next.expect.reset();  // of the scene as it was
     app.message = app.session.edit(next);
+    app.fit_what_has_left();
   }
   // A drag in a field is one edit, from press to release.
   if (!was_active && ImGui::IsAnyItemActive()) app.session.begin_edit();
