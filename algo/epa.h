@@ -196,7 +196,7 @@ class Epa {
     return V::Zero();
   }
 
-  /// A unit direction across the chosen points: of a line that passes the origin, towards it.
+  /// A unit direction across the chosen points; where these are a line that passes beside the origin, the way from the one to the other.
   V across(const std::array<int, D + 1>& chosen, int rank) const {
     if constexpr (D == 3) {
       if (rank == 2) return plane_normal(chosen);

@@ -70,6 +70,7 @@ struct Judge {
       c.find("wrong-normal", "The normal " + text_of(n) + " has length " + text_of(n.norm()) + " instead of 1.");
       return;
     }
+    if (!c.has_supports && limited) return;  // it may be of a triangle that is not the nearest
     const double slack = 10 * limit + (*right.upper_bound - *right.lower_bound);
     const double along = c.apart_along(n), against = c.apart_along(-n);
     // What is not the best way out is one all the same: the bodies are as deep along it as is said.

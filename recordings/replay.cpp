@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "algo/motion.h"
-#include "recordings/mesh_parts.h"
 #include "shapes/world_support.h"
 
 namespace gjkdbg {
@@ -310,7 +309,9 @@ struct Apply {
   /// that of all triangles.)
   void bounds_of_result() {
     const Result& result = recording.result;
-    if (!recording.scene.scene.motion && !mesh_parts(recording, step) && result.lower_bound && result.upper_bound) bounds(*result.lower_bound, *result.upper_bound);
+    const auto& bodies = recording.scene.scene.bodies;
+    const bool one_run = !recording.scene.scene.motion && std::none_of(bodies.begin(), bodies.end(), [](const Body& b) { return std::holds_alternative<Mesh>(b.shape.geometry); });
+    if (one_run && result.lower_bound && result.upper_bound) bounds(*result.lower_bound, *result.upper_bound);
   }
 };
 
