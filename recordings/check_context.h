@@ -195,7 +195,7 @@ class EpaCheck {
 /// What our own recordings say twice: see check_record.cpp.
 class RecordCheck {
  public:
-  explicit RecordCheck(CheckContext& context) : c_(context), ours_(context.recording.generator.starts_with("gjkdbg ")) {}
+  explicit RecordCheck(CheckContext& context) : c_(context), ours_(!foreign(context.recording)) {}
   /// After every other check of the event: what those find is nearer to the cause.
   void operator()(const Event& event);
   void result();

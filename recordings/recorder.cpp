@@ -2,6 +2,7 @@
 
 namespace gjkdbg {
 std::string generator_name() { return "gjkdbg " GJKDBG_VERSION; }
+bool foreign(const Recording& recording) { return !recording.generator.starts_with("gjkdbg "); }
 
 std::optional<GivenVertex> given_vertex(const Event& event) {
   if (const auto* e = std::get_if<recorded::SupportQueried>(&event)) return GivenVertex{e->vertex, e->a, e->b, e->w};

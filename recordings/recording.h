@@ -116,6 +116,8 @@ Recording record(const SceneFile& scene, const Settings& settings);
 
 /// Who writes our recordings: "gjkdbg VERSION".
 std::string generator_name();
+/// Whether another implementation's run was recorded: its generator is no version of ours.
+bool foreign(const Recording& recording);
 
 /// JSON text, one event a line, every double so that it reads back bit for bit, unset and non-finite values as null.
 std::string recording_to_text(const Recording& recording);

@@ -70,7 +70,7 @@ class TemporaryFolder {
   const std::string& path() const { return path_; }
 
  private:
-  std::string path_ = (std::filesystem::temp_directory_path() / "gjkdbg-XXXXXX").string();
+  std::string path_ = (std::filesystem::temp_directory_path() / ("gjkdbg-" + std::string(6, 'X'))).string();  ///< as mkdtemp wants it
 };
 
 /// This program with other words, at the same time; 0 when it cannot be started.

@@ -101,13 +101,11 @@ struct Explain {
     return fallback ? ", for the bodies' positions coincide. Any direction but zero would do." : ", from A towards B. Any direction but zero would do.";
   }
 
-  bool foreign() const { return !recording.generator.starts_with("gjkdbg "); }
-
   Explanation operator()(const recorded::GjkBegan& e) const {
     if (frame.step + 1 < recording.events.size() && std::holds_alternative<recorded::VertexKept>(recording.events[frame.step + 1]))
       return {"GJK begins, warm", "It starts from the simplex the last run on these bodies ended with. If they have moved little, it is nearly right already."};
     return {"GJK begins", "The search starts along d = " + short_vector(e.direction) +
-                              (recording.settings.initial_direction ? ", as the method says." : foreign() ? ", as the solver chose. Any direction but zero would do." : first_way(e.direction))};
+                              (recording.settings.initial_direction ? ", as the method says." : foreign(recording) ? ", as the solver chose. Any direction but zero would do." : first_way(e.direction))};
   }
 
   Explanation operator()(const recorded::VertexKept& e) const {
@@ -156,7 +154,7 @@ struct Explain {
   std::pair<const char*, const char*> way(const AnyVector& direction) const {
     const Settings& s = recording.settings;
     const AnyVector* v = led() ? closest_before() : nullptr;
-    if (foreign()) return {"The solver's next support", ""};
+    if (foreign(recording)) return {"The solver's next support", ""};
     if (!v || (direction.normalized() + v->normalized()).norm() < 1e-12) return {"Support towards the origin", ""};
     if (s.acceleration == Acceleration::newton) return {"Support along Newton's direction", "The curvature of the bodies at the last supports tells where the plane farthest from the origin should lie: across d, not across v. "};
     return {"Support along the momentum", "d keeps some of the directions before it, and is not -v alone. "};
@@ -182,7 +180,7 @@ struct Explain {
   }
 
   Explanation operator()(const recorded::GjkEnded& e) const {
-    if (foreign() && e.status != GjkStatus::aborted)
+    if (foreign(recording) && e.status != GjkStatus::aborted)
       return {"The solver ends", std::string("It takes the bodies to be ") + (e.status == GjkStatus::enclosed || e.status == GjkStatus::touching || e.status == GjkStatus::within_radius ? "overlapping." : "apart.")};
     return {"GJK ends: " + in_words(gjk_status_names[static_cast<std::size_t>(e.status)]), sentence(e.status, e)};
   }
@@ -285,19 +283,13 @@ struct Explain {
   Explanation operator()(const recorded::CastAdvanced& e) const {
     const std::string at = "At time " + short_number(e.time) + " " + body(e.pair[0]) + " and " + body(e.pair[1]) + " are " + short_number(e.distance) + " apart along " + short_vector(e.normal) + ". ";
     if (e.distance < 0) return {"Inside each other", body(e.pair[0]) + " and " + body(e.pair[1]) + " overlap by " + short_number(-e.distance) + " at time " + short_number(e.time) + ": they meet no later than that."};
-    if (they_meet()) return {"They meet", at + "That is within the tolerance, and they still approach: this is the time of impact."};
+    if (meets_at(recording, frame.step)) return {"They meet", at + "That is within the tolerance, and they still approach: this is the time of impact."};
     if (recording.settings.name == MethodName::root_finding)
       if (const auto* next = next_advance(e.pair)) return {"Surely apart for a while", at + "They come nearer by at most " + short_number(e.bound) + " per unit of time; along this normal the gap stays open until " + short_number(next->time) + "."};
     if (e.bound <= 0) return {"This pair recedes", at + "Along this normal they do not come nearer any more, so it separates them for good: the pair is left out."};
     return {"Surely apart for a while", at + "They come nearer by at most " + short_number(e.bound) + " per unit of time, so until " + short_number(e.time + std::max(0.0, e.distance) / e.bound) + " they cannot meet."};
   }
 
-  bool they_meet() const {
-    if (frame.step + 1 >= recording.events.size()) return false;
-    const Event& next = recording.events[frame.step + 1];
-    const auto* end = std::get_if<recorded::CastEnded>(&next);
-    return std::holds_alternative<recorded::ImpulseApplied>(next) || (end && end->status == CastStatus::hit);
-  }
   /// Of the same pair, before anything responds.
   const recorded::CastAdvanced* next_advance(const Edge& pair) const {
     for (std::size_t i = frame.step + 1; i < recording.events.size() && !std::holds_alternative<recorded::State>(recording.events[i]); ++i)

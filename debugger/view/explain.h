@@ -25,6 +25,8 @@ struct PseudoCode {
 };
 PseudoCode pseudo_code(const Recording& recording, std::size_t step);
 
+/// Whether an advance of a cast is the last before the bodies meet.
+bool meets_at(const Recording& recording, std::size_t step);
 /// The name it has in the scene; "body 0" where it has none.
 std::string body_name(const Recording& recording, int body);
 /// A, B, C, …: what it goes by where there is no room for its name.

@@ -24,10 +24,7 @@ struct PseudoCodeOf {
   }
   PseudoCode operator()(const recorded::CastBegan&) const { return cast(0); }
   PseudoCode operator()(const recorded::CastAdvanced& e) const {
-    const Event* next = step + 1 < recording.events.size() ? &recording.events[step + 1] : nullptr;
-    const auto* end = next ? std::get_if<recorded::CastEnded>(next) : nullptr;
-    const bool meet = next && (std::holds_alternative<recorded::ImpulseApplied>(*next) || (end && end->status == CastStatus::hit));
-    return cast(ray() ? 5 : meet ? 3 : e.bound <= 0 ? 5 : 6);
+    return cast(ray() ? 5 : meets_at(recording, step) ? 3 : e.bound <= 0 ? 5 : 6);
   }
   PseudoCode operator()(const recorded::CastEnded& e) const {
     if (e.status == CastStatus::iteration_limit) return cast(no_line);
@@ -105,11 +102,10 @@ struct PseudoCodeOf {
   bool boolean() const { return settings.name == MethodName::gjk_boolean; }
 
   PseudoCode gjk(int line) const {
-    const bool foreign = !recording.generator.starts_with("gjkdbg ");
     if (boolean()) return {"GJK, boolean form", {"W = { support(d) };  d = -w", "repeat", "  w = support(d)", "  if w short of O: apart", "  W = { w } + W", "  W, d = region of O, way to O", "  if W encloses O: overlap"}, line};
     const bool yes_or_no = recording.scene.scene.query == Query::intersect;
     const char* support = settings.name != MethodName::gjk_accelerated ? "  w = support(-v)" : settings.acceleration == Acceleration::newton ? "  w = support(Newton's d or -v)" : "  w = support(momentum's d or -v)";
-    return {foreign ? "GJK, distance form; yours may differ" : "GJK, distance form",
+    return {foreign(recording) ? "GJK, distance form; yours may differ" : "GJK, distance form",
             {settings.start == Start::previous ? "W = last simplex, or { support(d) }" : "w = support(d);  W = { w }", "repeat", "  v = point of W nearest O", "  W = the part of W that holds v",
              yes_or_no ? "  if |v| <= radii: overlap" : "  if v = O: overlap", support, yes_or_no ? "  if w short of O: apart" : "  if w no nearer O: distance |v|", "  W = { w } + W"},
             line};
@@ -118,7 +114,7 @@ struct PseudoCodeOf {
   PseudoCode operator()(const recorded::VertexKept&) const { return gjk(0); }
   PseudoCode operator()(const recorded::SimplexReduced&) const { return gjk(boolean() ? 5 : 3); }
   PseudoCode operator()(const recorded::GjkEnded& e) const {
-    if (!recording.generator.starts_with("gjkdbg ")) return gjk(no_line);
+    if (foreign(recording)) return gjk(no_line);
     switch (e.status) {
       case GjkStatus::enclosed:
       case GjkStatus::touching:

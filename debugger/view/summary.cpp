@@ -34,6 +34,13 @@ std::string letters(const std::vector<int>& vertices, const std::vector<int>& or
   return out;
 }
 
+bool meets_at(const Recording& recording, std::size_t step) {
+  if (step + 1 >= recording.events.size()) return false;
+  const Event& next = recording.events[step + 1];
+  const auto* end = std::get_if<recorded::CastEnded>(&next);
+  return std::holds_alternative<recorded::ImpulseApplied>(next) || (end && end->status == CastStatus::hit);
+}
+
 std::string body_name(const Recording& recording, int body) {
   const auto& bodies = recording.scene.scene.bodies;
   const std::string& name = bodies[std::min(static_cast<std::size_t>(body), bodies.size() - 1)].name;
