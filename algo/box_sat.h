@@ -24,6 +24,7 @@
 #include <optional>
 #include <utility>
 
+#include "algo/nearest_points.h"
 #include "algo/sat.h"
 
 namespace gjkdbg {
@@ -32,13 +33,6 @@ namespace gjkdbg {
 template <int D, class S>
 struct BoxWitnesses {
   Vector<D, S> a, b;
-};
-
-/// The points of the cores nearest to each other, with b - a = distance * normal. No points are nearer than lower_bound.
-template <int D, class S>
-struct BoxGap {
-  Vector<D, S> a, b, normal;
-  S distance, lower_bound;
 };
 
 template <class Difference, class Trace>
@@ -85,7 +79,7 @@ class BoxSat {
   }
 
   /// Of boxes that are apart, but by no more than enough. Unset where it is not proven.
-  const std::optional<BoxGap<D, S>>& gap() const { return gap_; }
+  const std::optional<NearestPoints<D, S>>& gap() const { return gap_; }
 
  private:
   struct Axis {
@@ -196,10 +190,10 @@ class BoxSat {
   }
 
   /// Across the widest gap, or by projections: see above.
-  std::optional<BoxGap<D, S>> find_gap() {
+  std::optional<NearestPoints<D, S>> find_gap() {
     const V out = result_.normal * result_.depth;
     V a = nearest_on_a(start(out)), b = in_b(a - out), on_b = clamped(b, half_b_);
-    if (near(b, on_b)) return BoxGap<D, S>{a, a - out, result_.normal, -result_.depth, -result_.depth - floor_};
+    if (near(b, on_b)) return NearestPoints<D, S>{a, a - out, result_.normal, -result_.depth, -result_.depth - floor_};
     for (int round = 8; round > 0; --round) {
       b = from_b(on_b);
       a = nearest_on_a(b);
@@ -211,14 +205,14 @@ class BoxSat {
     return std::nullopt;
   }
 
-  std::optional<BoxGap<D, S>> proven_gap(const V& a, const V& b) {
+  std::optional<NearestPoints<D, S>> proven_gap(const V& a, const V& b) {
     const S distance = (b - a).norm();
     if (!(distance > floor_)) return std::nullopt;
     const V n = (b - a) / distance;
     const S plane = -height(n);
     if (distance - plane > 2 * floor_) return std::nullopt;
     result_.normal = n, result_.depth = -distance;
-    return BoxGap<D, S>{a, b, n, distance, plane - floor_};
+    return NearestPoints<D, S>{a, b, n, distance, plane - floor_};
   }
 
   void trace_projection(const V& a, const V& b) {
@@ -263,7 +257,7 @@ class BoxSat {
   S enough_ = 0;
   Axis best_;
   SatResult<D, S> result_;
-  std::optional<BoxGap<D, S>> gap_;
+  std::optional<NearestPoints<D, S>> gap_;
 };
 
 }  // namespace gjkdbg

@@ -13,10 +13,11 @@ namespace gjkdbg {
 enum class MethodName {
   gjk, gjk_boolean, gjk_accelerated, mpr, sat,
   closed_form,  ///< of cores that are points or segments (algo/closed_form.h)
-  fastest,      ///< of a `Method` only: whichever of closed_form, sat, gjk and gjk_accelerated the charts show to be fastest for the scene's bodies, with its settings
+  projections,  ///< of cores whose nearest points have a formula (algo/projections.h)
+  fastest,      ///< of a `Method` only: whichever of closed_form, sat, projections, gjk and gjk_accelerated the charts show to be fastest for the scene's bodies, with its settings
   conservative_advancement, ray_cast, root_finding  ///< of `cast`; GJK runs inside (algo/cast.h)
 };
-inline constexpr std::array<std::string_view, 10> method_names{"gjk", "gjk-boolean", "gjk-accelerated", "mpr", "sat", "closed-form", "fastest",
+inline constexpr std::array<std::string_view, 11> method_names{"gjk", "gjk-boolean", "gjk-accelerated", "mpr", "sat", "closed-form", "projections", "fastest",
                                                               "conservative-advancement", "ray-cast", "root-finding"};
 
 /// The sub-algorithm that finds the point of a simplex closest to the origin.

@@ -6,7 +6,8 @@
 //   penetration   the distance of the cores            when the cores overlap
 //   contact       as penetration, then the contact points (algo/contact.h)
 //
-// MPR and SAT tell how deep, but not how far: where they find a gap and its length is asked for, GJK measures it.
+// MPR and SAT tell how deep, but not how far: where they find a gap and its length is asked for, GJK measures it. Projections tell how far,
+// but not how deep.
 #pragma once
 
 #include "algo/boolean_gjk.h"
@@ -15,38 +16,14 @@
 #include "algo/gjk.h"
 #include "algo/johnson.h"
 #include "algo/mpr.h"
+#include "algo/projections.h"
 #include "algo/result.h"
 #include "algo/sat.h"
 #include "algo/voronoi.h"
+#include "algo/warm_start.h"
 #include "algo/world_trace.h"
 
 namespace gjkdbg {
-
-/// The simplex GJK ended with, for the next run on the same bodies to begin with: its points in the cores' own frames, which stay
-/// points of the bodies wherever these move. (Cameron 1997; Box2D keeps the vertices' numbers, which only polytopes have.)
-template <int D, class S>
-struct WarmStart {
-  int size = 0;
-  std::array<Vector<D, S>, D + 1> a{}, b{};
-};
-
-/// From points in the bodies' frames and back: the cores' are relative to their references, and scaled.
-template <int D, class S>
-WarmStart<D, S> warm_start(const std::vector<SimplexPoint>& points, const Convex<D, S>& a, const Convex<D, S>& b, double scale) {
-  WarmStart<D, S> warm;
-  for (const SimplexPoint& p : points) {
-    const Vector<D, double> pa = p.a * scale - a.reference(), pb = p.b * scale - b.reference();
-    warm.a[warm.size] = pa.template cast<S>(), warm.b[warm.size++] = pb.template cast<S>();
-  }
-  return warm;
-}
-template <int D, class S>
-std::vector<SimplexPoint> simplex_points(const WarmStart<D, S>& warm, const Convex<D, S>& a, const Convex<D, S>& b, double scale) {
-  std::vector<SimplexPoint> points;
-  for (int i = 0; i < warm.size; ++i)
-    points.push_back({(warm.a[i].template cast<double>() + a.reference()) / scale, (warm.b[i].template cast<double>() + b.reference()) / scale});
-  return points;
-}
 
 /// Storage for repeated queries of one dimension and scalar.
 template <int D, class S>
@@ -82,6 +59,7 @@ class PairSolver {
     if (settings_.name == MethodName::gjk_boolean) return boolean();
     if (settings_.name == MethodName::mpr && mpr_decides(query)) return;
     if (settings_.name == MethodName::sat && sat_decides(query)) return;
+    if (settings_.name == MethodName::projections && projections_decide(query)) return;
     GjkOptions<D, S> options;
     options.goal = query == Query::intersect  ? GjkGoal::intersect
                    : query == Query::distance ? GjkGoal::distance
@@ -279,7 +257,27 @@ class PairSolver {
     return sat.gap().has_value();
   }
 
-  void apart_at(const BoxGap<D, S>& found, Query query) {
+  /// False: overlapping, and the depth is asked for, or not decided.
+  bool projections_decide(Query query) {
+    if constexpr (requires { difference_.a().core(), difference_.b().core(); }) {
+      if (!projectable(difference_.a()) || !projectable(difference_.b())) {
+        if constexpr (traced<Trace>) trace_(Warning<V, Viewed>{"flat-ellipsoid", "The nearest point of an ellipsoid without thickness has no formula here. GJK decides."});
+        return false;
+      }
+      Projections<Difference, Trace> projections(difference_, tolerance_for(query), settings_.max_iterations, trace_);
+      const ProjectionsResult<D, S> found = projections.run(query == Query::intersect ? difference_.radius() : std::numeric_limits<S>::infinity());
+      result_->iterations += found.iterations;
+      result_->status = projections_status_names[static_cast<std::size_t>(found.status)];
+      if (found.status == ProjectionsStatus::undecided) return false;
+      if (found.status == ProjectionsStatus::separated) return apart_at(found.nearest, query), true;
+      result_->intersecting = true;
+      if (query == Query::distance) overlapping_at(found.nearest.b, found.nearest.b, difference_.rounding_floor());
+      return query == Query::intersect || query == Query::distance;
+    }
+    return false;
+  }
+
+  void apart_at(const NearestPoints<D, S>& found, Query query) {
     result_->intersecting = static_cast<double>(found.distance) <= radius_;
     if (query == Query::intersect) return;
     set_bounds(found.lower_bound, found.distance + difference_.rounding_floor());

@@ -62,4 +62,11 @@ enum class ClosedFormStatus {
 };
 inline constexpr std::array<std::string_view, 2> closed_form_status_names{"separated", "overlapping"};
 
+enum class ProjectionsStatus {
+  separated,    ///< the nearest points of the cores, proven by the plane between them; of a yes or no, what is enough for it
+  overlapping,  ///< a point is of both cores
+  undecided,    ///< rounding, or the search, came to no proof: GJK goes on
+};
+inline constexpr std::array<std::string_view, 3> projections_status_names{"separated", "overlapping", "undecided"};
+
 }  // namespace gjkdbg

@@ -18,8 +18,8 @@
 namespace gjkdbg {
 
 /// Where a support query came from.
-enum class Phase { gjk, seed, epa, mpr, sat, cast };
-inline constexpr std::array<std::string_view, 6> phase_names{"gjk", "seed", "epa", "mpr", "sat", "cast"};
+enum class Phase { gjk, seed, epa, mpr, sat, cast, projections };
+inline constexpr std::array<std::string_view, 7> phase_names{"gjk", "seed", "epa", "mpr", "sat", "cast", "projections"};
 
 /// What a separating axis was taken from.
 enum class AxisSource { face_a, face_b, edge_pair };
@@ -239,8 +239,8 @@ struct AxisTested {
   }
 };
 
-/// Of two boxes no axis of which tells the distance: a point of each core, `b` the nearest to the one before and `a` the nearest to `b`;
-/// `closest` is a - b. The bounds are of the bodies' signed distance.
+/// A point of each core, `b` the nearest to the one before (or to the point predicted) and `a` the nearest to `b`; `closest` is a - b. Also of two boxes no
+/// axis of which tells the distance (then `b` is the nearest to the last `a`). The bounds are of the bodies' signed distance.
 template <class V, class Store>
 struct PointsProjected {
   static constexpr std::string_view kind = "points_projected";
@@ -304,6 +304,36 @@ struct ClosedFormEnded {
   }
 };
 
+/// Projections begin at this point of body 0's core.
+template <class V, class Store>
+struct ProjectionsBegan {
+  static constexpr std::string_view kind = "projections_began";
+  V point;
+  static constexpr auto fields() { return std::tuple(field("point", &ProjectionsBegan::point)); }
+};
+
+/// Where Newton's step, or part of it, expects body 0's nearest point: what is projected next.
+template <class V, class Store>
+struct PointPredicted {
+  static constexpr std::string_view kind = "point_predicted";
+  int iteration = 0;
+  V point;
+  static constexpr auto fields() { return std::tuple(field("iteration", &PointPredicted::iteration), field("point", &PointPredicted::point)); }
+};
+
+/// The bounds are of the bodies' signed distance.
+template <class V, class Store>
+struct ProjectionsEnded {
+  static constexpr std::string_view kind = "projections_ended";
+  int iteration = 0;
+  ProjectionsStatus status = ProjectionsStatus::undecided;
+  double lower_bound = 0, upper_bound = 0;
+  static constexpr auto fields() {
+    return std::tuple(field("iteration", &ProjectionsEnded::iteration), field("status", &ProjectionsEnded::status),
+                      field("lower_bound", &ProjectionsEnded::lower_bound), field("upper_bound", &ProjectionsEnded::upper_bound));
+  }
+};
+
 template <class V, class Store>
 struct Warning {
   static constexpr std::string_view kind = "warning";
@@ -322,7 +352,7 @@ using AllEvents = EventList<GjkBegan<V, Store>, VertexKept<V, Store>, SupportQue
                             PolytopeSeeded<V, Store>, FaceChosen<V, Store>, PolytopeGrown<V, Store>, EpaEnded<V, Store>,
                             MprBegan<V, Store>, PortalFound<V, Store>, MprEnded<V, Store>, SatBegan<V, Store>,
                             AxisTested<V, Store>, PointsProjected<V, Store>, SatEnded<V, Store>, ClosedFormBegan<V, Store>, LinesSolved<V, Store>,
-                            ClosedFormEnded<V, Store>, CastBegan<V, Store>, CastAdvanced<V, Store>,
+                            ClosedFormEnded<V, Store>, ProjectionsBegan<V, Store>, PointPredicted<V, Store>, ProjectionsEnded<V, Store>, CastBegan<V, Store>, CastAdvanced<V, Store>,
                             CastEnded<V, Store>, State<V, Store>, ContactFound<V, Store>, ImpulseApplied<V, Store>,
                             Warning<V, Store>>;
 

@@ -149,6 +149,12 @@ class WorldTrace {
     sink_(world::ClosedFormEnded{e.status, e.s, e.t, frame_.vector(e.closest), frame_.direction(e.normal), length(e.lower_bound), length(e.upper_bound)});
   }
 
+  void operator()(const ProjectionsBegan<V, Viewed>& e) { sink_(world::ProjectionsBegan{frame_.point(e.point)}); }
+
+  void operator()(const PointPredicted<V, Viewed>& e) { sink_(world::PointPredicted{e.iteration, frame_.point(e.point)}); }
+
+  void operator()(const ProjectionsEnded<V, Viewed>& e) { sink_(world::ProjectionsEnded{e.iteration, e.status, length(e.lower_bound), length(e.upper_bound)}); }
+
   void operator()(const CastAdvanced<V, Viewed>& e) {
     sink_(world::CastAdvanced{e.iteration, e.time, e.pair, length(e.distance), frame_.direction(e.normal), length(e.bound)});
   }

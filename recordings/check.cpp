@@ -208,6 +208,9 @@ struct Walk {
   void operator()(const recorded::ClosedFormBegan&) {}
   void operator()(const recorded::LinesSolved&) {}
   void operator()(const recorded::ClosedFormEnded& e) { best_plane = std::max(best_plane, e.lower_bound + c.radius); }
+  void operator()(const recorded::ProjectionsBegan&) {}
+  void operator()(const recorded::PointPredicted&) {}
+  void operator()(const recorded::ProjectionsEnded& e) { best_plane = std::max(best_plane, e.lower_bound + c.radius); }
   /// Judged as a whole by check_cast and check_simulation.
   void operator()(const recorded::CastBegan&) {}
   void operator()(const recorded::CastAdvanced&) {}

@@ -113,6 +113,7 @@ class TraceCheck {
   void judge(const recorded::PointsProjected& e);
   void judge(const recorded::SatEnded& e);
   void judge(const recorded::ClosedFormEnded& e);
+  void judge(const recorded::ProjectionsEnded& e);
   template <class E>
   void judge(const E&) {}
 
@@ -203,6 +204,7 @@ class RecordCheck {
  private:
   void contradiction(const std::string& message);
   std::string not_as_asked() const;
+  void nearest_to(std::size_t body, const AnyVector& point, const AnyVector& from);
   void add(const std::vector<recorded::Face>& faces);
   void judge(const recorded::GjkBegan& e);
   void judge(const recorded::VertexKept& e);
@@ -221,6 +223,10 @@ class RecordCheck {
   void judge(const recorded::ClosedFormBegan& e);
   void judge(const recorded::LinesSolved& e);
   void judge(const recorded::ClosedFormEnded& e);
+  void judge(const recorded::ProjectionsBegan& e);
+  void judge(const recorded::PointPredicted& e);
+  void judge(const recorded::PointsProjected& e);
+  void judge(const recorded::ProjectionsEnded& e);
   template <class E>
   void judge(const E&) {}
 
@@ -234,6 +240,7 @@ class RecordCheck {
   std::set<int> chosen_;                      ///< of these
   std::array<int, 3> axes_{};                 ///< SAT's, by source: how many may still come
   std::optional<recorded::ClosedFormBegan> segments_;
+  AnyVector projected_from_;                  ///< the point last said to be projected; empty before any
 };
 
 /// The answer against our own.

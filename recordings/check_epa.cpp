@@ -191,7 +191,7 @@ void EpaCheck::check_convex(std::optional<int> newest) {
       const auto found = c_.vertices.find(v);
       if (found == c_.vertices.end()) continue;
       const double beyond = face.normal.dot(found->second) - face.distance;
-      if (beyond <= limit) continue;
+      if (beyond <= limit + face.uncertain) continue;
       if (newest == v)
         c_.find("visible-face-kept", "Vertex " + std::to_string(v) + " sees " + face_name(number) + " from " + text_of(beyond) + " beyond it, but the face was kept. Every face with normal . w > distance must go before the horizon is closed.");
       else

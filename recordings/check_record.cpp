@@ -155,6 +155,22 @@ void RecordCheck::judge(const recorded::LinesSolved& e) {
 
 void RecordCheck::judge(const recorded::ClosedFormEnded& e) { ++iterations_, statuses_.emplace(closed_form_status_names[static_cast<std::size_t>(e.status)]); }
 
+/// The point of a body nearest to another is a support of it along the way there.
+void RecordCheck::nearest_to(std::size_t body, const AnyVector& point, const AnyVector& from) {
+  const AnyVector out = from - point;
+  if (!c_.has_supports || !c_.cores || !out.allFinite() || !(out.norm() > c_.tolerance)) return;
+  const double beyond = c_.short_of_support(body, out.normalized(), point), digits = c_.recording.settings.scalar == Scalar::float_precision ? 1e-6 : 1e-14;
+  if (beyond > std::max(c_.tolerance, 1e-7 * c_.size) + digits * c_.size * c_.size / out.norm())
+    contradiction((body == 0 ? "a = " : "b = ") + text_of(point) + " is not the point of body " + std::to_string(body) + " nearest to " + text_of(from) + ": the body reaches " + text_of(beyond) + " farther that way.");
+}
+void RecordCheck::judge(const recorded::ProjectionsBegan& e) { projected_from_ = e.point; }
+void RecordCheck::judge(const recorded::PointPredicted& e) { projected_from_ = e.point; }
+void RecordCheck::judge(const recorded::PointsProjected& e) {
+  if (projected_from_.size() == e.b.size()) nearest_to(1, e.b, projected_from_);
+  nearest_to(0, e.a, e.b);
+}
+void RecordCheck::judge(const recorded::ProjectionsEnded& e) { statuses_.emplace(projections_status_names[static_cast<std::size_t>(e.status)]); }
+
 /// What is missing of what was asked for, or there without having been asked for.
 std::string RecordCheck::not_as_asked() const {
   const Result& r = c_.recording.result;

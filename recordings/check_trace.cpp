@@ -7,12 +7,13 @@
 namespace gjkdbg {
 namespace {
 
-constexpr std::string_view gjk = "gjk", epa = "epa", mpr = "mpr", sat = "sat", closed_form = "closed_form", moving = "cast";
+constexpr std::string_view gjk = "gjk", epa = "epa", mpr = "mpr", sat = "sat", projections = "projections", closed_form = "closed_form", moving = "cast";
 
 /// The phase an event takes place in; empty for those that stand for themselves.
 struct PhaseOf {
+  bool boxes;  ///< SAT projects points, too
   std::string_view operator()(const recorded::SupportQueried& e) const {
-    constexpr std::array names{gjk, epa, epa, mpr, sat, moving};
+    constexpr std::array names{gjk, epa, epa, mpr, sat, moving, projections};
     return names[static_cast<std::size_t>(e.phase)];
   }
   std::string_view operator()(const recorded::VertexKept&) const { return gjk; }
@@ -22,7 +23,8 @@ struct PhaseOf {
   std::string_view operator()(const recorded::PolytopeGrown&) const { return epa; }
   std::string_view operator()(const recorded::PortalFound&) const { return mpr; }
   std::string_view operator()(const recorded::AxisTested&) const { return sat; }
-  std::string_view operator()(const recorded::PointsProjected&) const { return sat; }
+  std::string_view operator()(const recorded::PointsProjected&) const { return boxes ? sat : projections; }
+  std::string_view operator()(const recorded::PointPredicted&) const { return projections; }
   std::string_view operator()(const recorded::LinesSolved&) const { return closed_form; }
   std::string_view operator()(const recorded::CastAdvanced&) const { return moving; }
   template <class E>
@@ -49,7 +51,7 @@ void TraceCheck::values(const Event& event) {
 /// A motion encloses the runs it is made of; these do not enclose one another. EPA has no beginning of its own: it
 /// follows a run of GJK, perhaps with MPR between.
 void TraceCheck::phases(const Event& event) {
-  const std::string_view kind = kind_name(event), inside = std::visit(PhaseOf{}, event);
+  const std::string_view kind = kind_name(event), inside = std::visit(PhaseOf{open_ == sat}, event);
   const bool begins = kind.ends_with("_began"), ends = kind.ends_with("_ended");
   const std::string_view phase = begins || ends ? kind.substr(0, kind.size() - 6) : inside;
   if (phase.empty()) {
@@ -201,10 +203,13 @@ void TraceCheck::judge(const recorded::AxisTested& e) {
 
 void TraceCheck::judge(const recorded::PointsProjected& e) {
   bounds(e.lower_bound, e.upper_bound);
-  if (belong_together(e.a, e.b, e.closest)) nearest(e.closest, e.upper_bound);
+  if (!belong_together(e.a, e.b, e.closest)) return;
+  if (open_ == sat || e.closest.norm() - c_.radius < e.upper_bound) nearest(e.closest, e.upper_bound);  // else there was a nearer one before
 }
 
 void TraceCheck::judge(const recorded::SatEnded& e) { along(e.normal, e.distance); }
+
+void TraceCheck::judge(const recorded::ProjectionsEnded& e) { bounds(e.lower_bound, e.upper_bound); }
 
 /// The parameters give the nearest point, and along the normal the bodies are as far apart as the bounds say.
 void TraceCheck::judge(const recorded::ClosedFormEnded& e) {

@@ -52,6 +52,7 @@ void append_value(std::string& out, EpaStatus s) { append_string(out, epa_status
 void append_value(std::string& out, MprStatus s) { append_string(out, mpr_status_names[static_cast<std::size_t>(s)]); }
 void append_value(std::string& out, CastStatus s) { append_string(out, cast_status_names[static_cast<std::size_t>(s)]); }
 void append_value(std::string& out, ClosedFormStatus s) { append_string(out, closed_form_status_names[static_cast<std::size_t>(s)]); }
+void append_value(std::string& out, ProjectionsStatus s) { append_string(out, projections_status_names[static_cast<std::size_t>(s)]); }
 void append_value(std::string& out, SatStatus s) { append_string(out, sat_status_names[static_cast<std::size_t>(s)]); }
 void append_value(std::string& out, AxisSource s) { append_string(out, axis_source_names[static_cast<std::size_t>(s)]); }
 void append_value(std::string& out, const Edge& e) {

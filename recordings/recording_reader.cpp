@@ -49,6 +49,9 @@ struct FieldReader {
   void read(const Json& json, const Place& place, std::string_view, ClosedFormStatus& s) const {
     s = static_cast<ClosedFormStatus>(read_enum(json, place, closed_form_status_names));
   }
+  void read(const Json& json, const Place& place, std::string_view, ProjectionsStatus& s) const {
+    s = static_cast<ProjectionsStatus>(read_enum(json, place, projections_status_names));
+  }
   void read(const Json& json, const Place& place, std::string_view, SatStatus& s) const {
     s = static_cast<SatStatus>(read_enum(json, place, sat_status_names));
   }

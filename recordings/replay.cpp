@@ -41,8 +41,8 @@ struct Apply {
       frame.stage = Frame::Stage::gjk;
       const double began = last_state_time();  // the ray's supports are those of the bodies where the cast began
       places_after(began, began);
-    } else if (e.phase == Phase::mpr || e.phase == Phase::sat) {
-      frame.stage = e.phase == Phase::mpr ? Frame::Stage::mpr : Frame::Stage::sat;
+    } else if (e.phase == Phase::mpr || e.phase == Phase::sat || e.phase == Phase::projections) {
+      frame.stage = e.phase == Phase::mpr ? Frame::Stage::mpr : e.phase == Phase::sat ? Frame::Stage::sat : Frame::Stage::projections;
     } else {
       frame.stage = e.phase == Phase::seed ? Frame::Stage::seed : Frame::Stage::epa;
       if (e.phase == Phase::seed) frame.seeds.push_back(e.vertex);
@@ -146,8 +146,7 @@ struct Apply {
   }
 
   void operator()(const recorded::PointsProjected& e) {
-    frame.iteration = e.iteration;
-    frame.closest = e.closest;
+    frame.iteration = e.iteration, frame.closest = e.closest;
     frame.newest.reset(), frame.direction.reset();
     bounds(e.lower_bound, e.upper_bound);
   }
@@ -174,6 +173,24 @@ struct Apply {
     bounds(e.lower_bound, e.upper_bound);
     frame.stage = Frame::Stage::done;
     if (e.status == ClosedFormStatus::overlapping && e.normal.norm() > 0) frame.normal = e.normal, frame.depth = -(e.lower_bound + e.upper_bound) / 2;
+  }
+
+  void operator()(const recorded::ProjectionsBegan& e) {
+    fresh();
+    frame.stage = Frame::Stage::projections;
+    frame.predicted = e.point;
+  }
+
+  void operator()(const recorded::PointPredicted& e) {
+    frame.iteration = e.iteration;
+    frame.predicted = e.point;
+  }
+
+  void operator()(const recorded::ProjectionsEnded& e) {
+    frame.iteration = e.iteration;
+    frame.projections_status = e.status, frame.predicted.reset();
+    bounds(e.lower_bound, e.upper_bound);
+    frame.stage = Frame::Stage::done;
   }
 
   void operator()(const recorded::Warning&) {}

@@ -35,7 +35,7 @@ struct FrameFace {
 struct Frame {
   std::size_t step = 0;  ///< index of the event this frame follows
   int iteration = 0;
-  enum class Stage { before, gjk, seed, epa, mpr, sat, closed_form, done } stage = Stage::before;
+  enum class Stage { before, gjk, seed, epa, mpr, sat, closed_form, projections, done } stage = Stage::before;
 
   std::optional<AnyVector> direction;  ///< the latest search direction, or the one that comes next
   bool answered = false;               ///< whether `newest` is the support along `direction`
@@ -67,6 +67,8 @@ struct Frame {
   };
   std::optional<Parallelogram> parallelogram;
 
+  std::optional<AnyVector> predicted;  ///< projections: the point of body 0, or near it, that is projected next
+
   /// The vertices that simplex, seeds, portal, dropped, newest, faces and removed refer to.
   std::map<int, FrameVertex> vertices;
 
@@ -87,6 +89,7 @@ struct Frame {
   std::optional<MprStatus> mpr_status;
   std::optional<SatStatus> sat_status;
   std::optional<ClosedFormStatus> closed_form_status;
+  std::optional<ProjectionsStatus> projections_status;
   std::optional<AnyVector> normal;  ///< EPA's, MPR's, SAT's or the closed form's answer
   std::optional<double> depth;      ///< theirs too: of the bodies
   bool operator==(const Frame&) const = default;

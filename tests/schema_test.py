@@ -47,8 +47,8 @@ class Schemas(unittest.TestCase):
             self.check("recording", json.loads(run.stdout), path.name)
 
     def test_what_every_method_writes(self):
-        for scene in ("box-box-deep", "spheres-deep", "2d-deep"):
-            for method in ("gjk", "gjk-boolean", "gjk-accelerated", "mpr", "sat", "closed-form", "fastest"):
+        for scene in ("box-box-deep", "spheres-deep", "2d-deep", "pair-cylinder-cone", "cylinder-box-deep"):
+            for method in ("gjk", "gjk-boolean", "gjk-accelerated", "mpr", "sat", "closed-form", "projections", "fastest"):
                 query = "intersect" if method == "gjk-boolean" else "penetration"
                 run = subprocess.run([PROGRAM, "dump", scene, "--method", method, "--query", query], capture_output=True, text=True)
                 if run.returncode == 2:

@@ -140,6 +140,9 @@ EDITS = [
     ("mpr-2d-deep", lambda r: at(r, "portal_found")["vertices"].pop(), "inconsistent"),
     ("closed-form-capsules", lambda r: at(r, "closed_form_began")["edge_b"].__setitem__(0, 1.0), "inconsistent"),
     ("closed-form-capsules", lambda r: at(r, "lines_solved").update(s=0.5), "inconsistent"),
+    ("projections-cylinders", lambda r: at(r, "points_projected").update(upper_bound=2.0), "wrong-bounds"),
+    ("projections-cylinders", lambda r: at(r, "projections_ended").update(lower_bound=0.01), "wrong-bounds"),
+    ("projections-cylinders", lambda r: [p.__setitem__(2, p[2] + 0.1) for p in (at(r, "points_projected")["a"], at(r, "points_projected")["closest"])], "inconsistent"),
     ("box-contact-edge", lambda r: r["result"]["contacts"][0]["point_a"].__setitem__(0, 0.3), "wrong-contact"),
     ("box-contact-edge", lambda r: r["result"]["contacts"][0].update(depth=0.5), "wrong-contact"),
     ("box-contact-edge", lambda r: r["result"]["contacts"].clear(), "wrong-contact"),
@@ -174,6 +177,8 @@ EDITS = [
 
 # What only a later step contradicts.
 LATER = [
+    ("projections-cylinders", lambda r: at(r, "projections_began")["point"].__setitem__(2, 0.5), 1),
+    ("projections-cylinders", lambda r: at(r, "point_predicted")["point"].__setitem__(2, 0.5), 3),
     ("box-box-deep", lambda r: at(r, "gjk_began").update(direction=[1, 2, 3]), 1),
     ("sat-box-box", lambda r: at(r, "sat_began").update(faces_a=2), 6),
 ]

@@ -72,13 +72,13 @@ TEST_F(MethodPanel, SaysWhichDirectionsAreNotMinusV) {
 }
 
 TEST_F(MethodPanel, OffersOnlyMethodsThatFit) {
-  choose(536, 3);  // for boxes: gjk, gjk-accelerated, mpr, sat, fastest
+  choose(536, 3);  // for boxes: gjk, gjk-accelerated, mpr, sat, projections, fastest
   EXPECT_EQ(session.scene().method.name, MethodName::sat);
   choose(536, 0);
-  choose(536, 4);
+  choose(536, 5);
   EXPECT_EQ(session.scene().method.name, MethodName::fastest);
   EXPECT_EQ(session.recording().settings.name, MethodName::sat) << "the fastest for boxes";
-  choose(536, 5);
+  choose(536, 6);
   EXPECT_EQ(session.scene().method.name, MethodName::fastest) << "the list ends there";
   host.press(Key::escape);
   app.open_gallery("closed-form-capsules");

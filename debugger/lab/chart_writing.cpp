@@ -36,7 +36,7 @@ std::string in_double(const std::string& method) { return method.substr(0, metho
 /// A colour a method: the scalar is told by the dash. Colour-blind safe (Okabe and Ito), peers in greys.
 std::string style_of(const std::string& method) {
   static constexpr std::pair<const char*, const char*> colours[] = {{"signed volumes", "#0072B2"}, {"Johnson", "#D55E00"}, {"Voronoi regions", "#009E73"}, {"accelerated", "#CC79A7"}, {"Polyak", "#E69F00"}, {"Newton", "#882255"},
-                                                                    {"MPR", "#56B4E9"},            {"SAT", "#B8A800"},     {"closed form", "#7B3294"}, {"Bullet", "#222222"},          {"FCL", "#555555"},         {"libccd GJK", "#777777"},
+                                                                    {"MPR", "#56B4E9"},            {"SAT", "#B8A800"},     {"closed form", "#7B3294"}, {"projections", "#B2182B"}, {"Bullet", "#222222"},          {"FCL", "#555555"},         {"libccd GJK", "#777777"},
                                                                     {"libccd MPR", "#999999"},     {"ODE", "#BBBBBB"}};
   const char* colour = "#000000";
   for (const auto& [name, value] : colours)

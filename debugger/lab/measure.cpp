@@ -29,6 +29,7 @@ std::vector<Variant> variants(bool casts) {
     add("MPR", MethodName::mpr);
     add("SAT", MethodName::sat);
     add("closed form", MethodName::closed_form);
+    add("projections", MethodName::projections);
     if (casts) add("root finding", MethodName::root_finding), add("ray cast", MethodName::ray_cast);
   }
   for (const Peer& peer : peers()) out.push_back({peer.name, {}, &peer});

@@ -171,12 +171,18 @@ class WorldPainter : public Painter {
   }
 
 
-  /// A point of each box, looking for the one nearest to the other.
+  /// A point of each body, looking for the one nearest to the other; and where the next look begins.
   void projected() {
+    if (frame_.predicted) {
+      const ViewPoint x = to_view(*frame_.predicted) + one_d_offset(0);
+      picture_.points.push_back({x, palette_.chosen, 9, Mark::ring, -1});
+      label(x, "x", palette_.chosen, -12, 10);
+    }
     const auto* e = std::get_if<recorded::PointsProjected>(&recording_.events[frame_.step]);
     if (!e) return;
     const ViewPoint a = to_view(e->a) + one_d_offset(0), b = to_view(e->b) + one_d_offset(1);
     picture_.line(a, b, palette_.simplex, 1.6, Stroke::dashed);
+    if (frame_.predicted) picture_.line(to_view(*frame_.predicted) + one_d_offset(0), b, palette_.chosen, 1.2, Stroke::dashed);
     picture_.points.push_back({a, palette_.simplex, 6, Mark::disc, -1});
     picture_.points.push_back({b, palette_.simplex, 6, Mark::square, -1});
     label(a, "a", palette_.simplex);

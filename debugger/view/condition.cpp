@@ -20,6 +20,7 @@ std::string_view word_of(EpaStatus s) { return epa_status_names[static_cast<std:
 std::string_view word_of(MprStatus s) { return mpr_status_names[static_cast<std::size_t>(s)]; }
 std::string_view word_of(SatStatus s) { return sat_status_names[static_cast<std::size_t>(s)]; }
 std::string_view word_of(ClosedFormStatus s) { return closed_form_status_names[static_cast<std::size_t>(s)]; }
+std::string_view word_of(ProjectionsStatus s) { return projections_status_names[static_cast<std::size_t>(s)]; }
 std::string_view word_of(CastStatus s) { return cast_status_names[static_cast<std::size_t>(s)]; }
 std::string_view word_of(AxisSource s) { return axis_source_names[static_cast<std::size_t>(s)]; }
 

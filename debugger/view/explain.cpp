@@ -243,7 +243,18 @@ struct Explain {
   }
 
   Explanation operator()(const recorded::PointsProjected& e) const {
+    if (frame.stage == Frame::Stage::projections) {
+      const std::string points = "b = " + short_vector(e.b) + " is the point of B nearest to x, and a = " + short_vector(e.a) + " that of A nearest to b. ";
+      if (e.closest.isZero(0)) return {"A point of both bodies", points + "They are the same: the cores overlap."};
+      return {"Nearest points in turn", points + "They are " + short_number(e.closest.norm()) + " apart" + (no_nearer(e) ? ", more than before: the step went too far, and part of it is taken back." : ".")};
+    }
     return {"Points projected in turn", "No axis tells how far the boxes are apart: nearest to each other are a corner and an edge, or two corners. So a point looks for the nearest of the other box, and that for its nearest: a = " + short_vector(e.a) + ", b = " + short_vector(e.b) + ", " + short_number(e.closest.norm()) + " apart. Two points that are each the nearest to the other are the closest of all."};
+  }
+
+  bool no_nearer(const recorded::PointsProjected& e) const {
+    for (std::size_t i = frame.step; i-- > 0 && !std::holds_alternative<recorded::ProjectionsBegan>(recording.events[i]);)
+      if (const auto* before = std::get_if<recorded::PointsProjected>(&recording.events[i]); before && before->closest.norm() <= e.closest.norm()) return true;
+    return false;
   }
 
   Explanation operator()(const recorded::SatEnded& e) const {
@@ -256,6 +267,21 @@ struct Explain {
     const bool a = !e.edge_a.isZero(0), b = !e.edge_b.isZero(0);
     const std::string what = a && b ? "Both cores are segments: A - B is the parallelogram with the corner c = " : a || b ? "One core is a point, the other a segment: A - B is a segment from c = " : "Both cores are points: A - B is the point c = ";
     return {"A formula instead of a search", what + short_vector(e.corner) + (a ? ", edge u = " + short_vector(e.edge_a) : "") + (b ? std::string(a ? " and -v" : ", edge -v") + ", v = " + short_vector(e.edge_b) : "") + ". The radii are added afterwards."};
+  }
+
+  Explanation operator()(const recorded::ProjectionsBegan& e) const {
+    return {"Projections begin", "For shapes like these a formula gives the point nearest to another. From x = " + short_vector(e.point) + " inside A to the nearest of B, from there to the nearest of A, and so on: two points that are each the nearest to the other are the closest of all."};
+  }
+
+  Explanation operator()(const recorded::PointPredicted& e) const {
+    return {"Newton's step", "How the two points turn and slide when the first one moves is known. So it goes straight to where they should stand still: x = " + short_vector(e.point) + "."};
+  }
+
+  Explanation operator()(const recorded::ProjectionsEnded& e) const {
+    const std::string title = "Projections end: " + std::string(projections_status_names[static_cast<std::size_t>(e.status)]);
+    if (e.status == ProjectionsStatus::separated) return {title, "The plane across the way from a to b leaves no room for points that are nearer: these are the nearest ones, and the bodies are between " + short_number(e.lower_bound) + " and " + short_number(e.upper_bound) + " apart."};
+    if (e.status == ProjectionsStatus::overlapping) return {title, std::string("The cores share a point") + (recording.scene.scene.query > Query::distance ? ". How deep they overlap is for GJK and EPA to find." : ".")};
+    return {title, "What is left is within rounding, or the points do not settle. GJK decides."};
   }
 
   Explanation operator()(const recorded::LinesSolved& e) const {

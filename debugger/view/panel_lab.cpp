@@ -12,7 +12,7 @@ constexpr std::pair<const char*, std::uint32_t> peers[] = {{"Bullet", 0x8c8f96},
 /// A colour a method, whatever the scalar; other libraries in quieter ones.
 Colour colour_of(const std::string& method, const Palette& p) {
   static constexpr std::pair<const char*, std::uint32_t> ours[] = {{"signed volumes", 0x3d8fe0}, {"Johnson", 0xe0663a}, {"Voronoi regions", 0x2fae83}, {"accelerated", 0xd07ab5},
-                                                                   {"Polyak", 0xdca11d}, {"Newton", 0xb8446e},        {"MPR", 0x62b8e8},     {"SAT", 0xa8a032},     {"closed form", 0xb07cc6}};
+                                                                   {"Polyak", 0xdca11d}, {"Newton", 0xb8446e},        {"MPR", 0x62b8e8},     {"SAT", 0xa8a032},     {"closed form", 0xb07cc6}, {"projections", 0xd64550}};
   for (const auto& [name, value] : ours)
     if (method.starts_with(name)) return rgb(value);
   for (const auto& [name, value] : peers)

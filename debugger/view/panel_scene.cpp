@@ -275,7 +275,7 @@ void comparison(App& app) {
     else offer("double precision", [](Method& m) { m.scalar = Scalar::double_precision, m.tolerance.reset(); });
     for (const ClosestPoint part : {ClosestPoint::signed_volumes, ClosestPoint::johnson, ClosestPoint::voronoi})
       if (part != now.closest_point) offer(closest_point_names[static_cast<std::size_t>(part)].data(), [&](Method& m) { m.closest_point = part, m.name = MethodName::gjk; });
-    for (const MethodName name : {MethodName::gjk, MethodName::gjk_accelerated, MethodName::gjk_boolean, MethodName::mpr, MethodName::sat, MethodName::closed_form}) {
+    for (const MethodName name : {MethodName::gjk, MethodName::gjk_accelerated, MethodName::gjk_boolean, MethodName::mpr, MethodName::sat, MethodName::closed_form, MethodName::projections}) {
       if (name == now.name || std::find(possible.begin(), possible.end(), static_cast<int>(name)) == possible.end()) continue;
       offer(method_names[static_cast<std::size_t>(name)].data(), [&](Method& m) { change_name(m, name); });
     }

@@ -32,6 +32,7 @@ const char* phase_name(const Event& event, const Frame& frame) {
   if (frame.stage == Frame::Stage::mpr || frame.mpr_status) return "MPR";
   if (frame.stage == Frame::Stage::sat || frame.sat_status) return "SAT";
   if (frame.stage == Frame::Stage::closed_form || frame.closed_form_status) return "closed form";
+  if (frame.stage == Frame::Stage::projections || std::holds_alternative<recorded::ProjectionsEnded>(event)) return "projections";
   return "GJK";
 }
 
@@ -185,7 +186,7 @@ void bounds(App& app) {
   const bool before = std::holds_alternative<recorded::SupportQueried>(event) || std::holds_alternative<recorded::PolytopeSeeded>(event) || std::holds_alternative<recorded::FaceChosen>(event);
   section(theme, (std::string(mesh_parts(app.session.recording(), app.session.step()) ? "DISTANCE TO THE TRIANGLE" : "SIGNED DISTANCE") + (before ? ", BEFORE THIS STEP" : "")).c_str());
   const auto text = [](const std::optional<double>& x) { return x ? short_number(*x) : std::string("unknown"); };
-  const auto from = last_of<recorded::SimplexReduced, recorded::GjkEnded, recorded::PolytopeGrown, recorded::PortalFound, recorded::AxisTested, recorded::PointsProjected, recorded::ClosedFormEnded>(app.session);
+  const auto from = last_of<recorded::SimplexReduced, recorded::GjkEnded, recorded::PolytopeGrown, recorded::PortalFound, recorded::AxisTested, recorded::PointsProjected, recorded::ProjectionsEnded, recorded::ClosedFormEnded>(app.session);
   number_row(app, "at most", text(frame.upper_bound), theme.palette.text, from);
   number_row(app, "at least", text(frame.lower_bound), theme.palette.text, from);
   if (frame.lower_bound && frame.upper_bound) number_row(theme, "gap", short_number(*frame.upper_bound - *frame.lower_bound), theme.palette.text_soft);
@@ -247,7 +248,7 @@ void answer(App& app) {
     return;
   }
   number_row(theme, "intersecting", r.intersecting ? "yes" : "no", r.intersecting ? theme.palette.newest : theme.palette.support);
-  if (r.signed_distance) number_row(app, "signed distance", short_number(*r.signed_distance), theme.palette.text, last_of<recorded::GjkEnded, recorded::EpaEnded, recorded::MprEnded, recorded::SatEnded, recorded::ClosedFormEnded>(app.session));
+  if (r.signed_distance) number_row(app, "signed distance", short_number(*r.signed_distance), theme.palette.text, last_of<recorded::GjkEnded, recorded::EpaEnded, recorded::MprEnded, recorded::SatEnded, recorded::ClosedFormEnded, recorded::ProjectionsEnded>(app.session));
   if (r.normal) number_row(theme, "normal", short_vector(*r.normal), theme.palette.text);
   if (r.witness_a) number_row(theme, "witness a", short_vector(*r.witness_a), theme.palette.body_a);
   if (r.witness_b) number_row(theme, "witness b", short_vector(*r.witness_b), theme.palette.body_b);

@@ -183,6 +183,8 @@ void legend(App& app) {
   using Entries = std::vector<std::pair<const char*, Colour>>;
   const Entries entries = app.session.scene().scene.motion
                               ? Entries{{"support", p.support}, {"simplex", p.simplex}, {"advance, state", p.accent}, {"contact", p.chosen}, {"impulse", p.body_b}, {"begin, end", p.text}, {"warning", p.newest}}
+                          : app.session.recording().settings.name == MethodName::projections
+                              ? Entries{{"support", p.support}, {"points, simplex", p.simplex}, {"Newton, face", p.chosen}, {"polytope", p.frontier}, {"begin, end", p.text}, {"warning, finding", p.newest}}
                               : Entries{{"support", p.support}, {"simplex", p.simplex}, {"face chosen", p.chosen}, {"polytope", p.frontier}, {"begin, end", p.text}, {"warning, finding", p.newest}};
   for (const auto& [name, colour] : entries) {
     const ImVec2 at = ImGui::GetCursorScreenPos();

@@ -69,7 +69,14 @@ struct PseudoCodeOf {
   PseudoCode sat(int line) const { return {"SAT", {"for n in faces of A, faces of B,", "         edge of A x edge of B", "  w = support(n)", "  if n.w < 0: apart", "  depth = min(depth, n.w)", "overlap, depth"}, line}; }
   PseudoCode operator()(const recorded::SatBegan&) const { return sat(0); }
   PseudoCode operator()(const recorded::AxisTested& e) const { return sat(e.distance > 0 ? 3 : 4); }
+  PseudoCode projections(int line) const {
+    return {"Projections", {"x = a point inside A", "repeat", "  b = point of B nearest x", "  a = point of A nearest b", "  if a = b: overlap", "  if w across a - b is no nearer: apart", "  x = Newton's step for a = x"}, line};
+  }
+  PseudoCode operator()(const recorded::ProjectionsBegan&) const { return projections(0); }
+  PseudoCode operator()(const recorded::PointPredicted&) const { return projections(6); }
+  PseudoCode operator()(const recorded::ProjectionsEnded& e) const { return projections(e.status == ProjectionsStatus::separated ? 5 : e.status == ProjectionsStatus::overlapping ? 4 : no_line); }
   PseudoCode operator()(const recorded::PointsProjected&) const {
+    if (settings.name == MethodName::projections) return projections(3);
     return {"SAT of two boxes, apart", {"a = a point of A at the widest gap", "repeat", "  b = point of B nearest a", "  a = point of A nearest b", "until neither moves"}, 3};
   }
   PseudoCode operator()(const recorded::SatEnded& e) const { return sat(e.status == SatStatus::separated ? 3 : 5); }
@@ -133,6 +140,7 @@ struct PseudoCodeOf {
     switch (e.phase) {
       case Phase::mpr: return mpr(before_the_first_portal() ? 1 : 5);
       case Phase::sat: return sat(2);
+      case Phase::projections: return projections(5);
       case Phase::cast: return cast(e.iteration == 0 ? 0 : 2);
       case Phase::seed: return epa(0);
       case Phase::epa: return epa(3);

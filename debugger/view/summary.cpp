@@ -84,6 +84,9 @@ struct Summarise {
     return s.empty() || t.empty() ? s + t : s + "  " + t;
   }
   std::string operator()(const recorded::ClosedFormEnded& e) const { return std::string(closed_form_status_names[static_cast<std::size_t>(e.status)]) + "  " + short_number((e.lower_bound + e.upper_bound) / 2); }
+  std::string operator()(const recorded::ProjectionsBegan& e) const { return "x = " + short_vector(e.point); }
+  std::string operator()(const recorded::PointPredicted& e) const { return "x = " + short_vector(e.point); }
+  std::string operator()(const recorded::ProjectionsEnded& e) const { return std::string(projections_status_names[static_cast<std::size_t>(e.status)]); }
   std::string operator()(const recorded::CastBegan& e) const { return std::to_string(e.pairs.size()) + " pairs"; }
   std::string operator()(const recorded::CastAdvanced& e) const { return (recording.scene.scene.bodies.size() > 2 ? pair(e.pair) + "  " : "") + "t = " + short_number(e.time) + "  d = " + short_number(e.distance); }
   std::string operator()(const recorded::CastEnded& e) const { return std::string(cast_status_names[static_cast<std::size_t>(e.status)]) + "  t = " + short_number(e.time); }

@@ -95,6 +95,9 @@ Colour event_colour(const Palette& p, const Event& event) {
     Colour operator()(const recorded::ClosedFormBegan&) const { return p.text; }
     Colour operator()(const recorded::LinesSolved&) const { return p.simplex; }
     Colour operator()(const recorded::ClosedFormEnded&) const { return p.text; }
+    Colour operator()(const recorded::ProjectionsBegan&) const { return p.text; }
+    Colour operator()(const recorded::PointPredicted&) const { return p.chosen; }
+    Colour operator()(const recorded::ProjectionsEnded&) const { return p.text; }
     Colour operator()(const recorded::CastBegan&) const { return p.text; }
     Colour operator()(const recorded::CastAdvanced&) const { return p.accent; }
     Colour operator()(const recorded::CastEnded&) const { return p.text; }
@@ -107,7 +110,7 @@ Colour event_colour(const Palette& p, const Event& event) {
 }
 
 const char* short_kind(const Event& event) {
-  static const char* const names[] = {"begin", "kept", "support", "simplex", "end", "polytope", "face", "grow", "end", "begin", "portal", "end", "begin", "axis", "points", "end", "begin", "lines", "end", "begin", "advance", "end", "state", "contact", "impulse", "warning"};
+  static const char* const names[] = {"begin", "kept", "support", "simplex", "end", "polytope", "face", "grow", "end", "begin", "portal", "end", "begin", "axis", "points", "end", "begin", "lines", "end", "begin", "newton", "end", "begin", "advance", "end", "state", "contact", "impulse", "warning"};
   static_assert(std::size(names) == std::variant_size_v<Event>);
   return names[event.index()];
 }

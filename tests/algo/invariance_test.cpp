@@ -146,15 +146,15 @@ TEST(Trace, EveryPhaseEndsExactlyOnce) {
       if (std::holds_alternative<recorded::GjkBegan>(event)) {
         EXPECT_FALSE(gjk || epa || other);
         gjk = true;
-      } else if (std::holds_alternative<recorded::MprBegan>(event) || std::holds_alternative<recorded::SatBegan>(event) || std::holds_alternative<recorded::ClosedFormBegan>(event)) {
+      } else if (std::holds_alternative<recorded::MprBegan>(event) || std::holds_alternative<recorded::SatBegan>(event) || std::holds_alternative<recorded::ClosedFormBegan>(event) || std::holds_alternative<recorded::ProjectionsBegan>(event)) {
         EXPECT_FALSE(gjk || epa || other);
         other = true;
-      } else if (std::holds_alternative<recorded::MprEnded>(event) || std::holds_alternative<recorded::SatEnded>(event) || std::holds_alternative<recorded::ClosedFormEnded>(event)) {
+      } else if (std::holds_alternative<recorded::MprEnded>(event) || std::holds_alternative<recorded::SatEnded>(event) || std::holds_alternative<recorded::ClosedFormEnded>(event) || std::holds_alternative<recorded::ProjectionsEnded>(event)) {
         EXPECT_TRUE(other);
         other = false;
       } else if (const auto* query = std::get_if<recorded::SupportQueried>(&event)) {
         EXPECT_EQ(gjk, query->phase == Phase::gjk);
-        EXPECT_EQ(other, query->phase == Phase::mpr || query->phase == Phase::sat);
+        EXPECT_EQ(other, query->phase == Phase::mpr || query->phase == Phase::sat || query->phase == Phase::projections);
         if (query->phase == Phase::seed || query->phase == Phase::epa) epa = true;
       } else if (std::holds_alternative<recorded::GjkEnded>(event)) {
         EXPECT_TRUE(gjk);

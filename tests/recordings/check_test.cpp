@@ -150,7 +150,7 @@ TEST(Check, DistanceQueriesOfOverlapsNameAPointOfBothBodies) {
     file.scene = random.scene(1 + k % 3, static_cast<Family>(k / 3 % family_count), true);
     file.scene.query = Query::distance;
     file.scene.bodies[1].pose.position = file.scene.bodies[0].pose.position;
-    for (const MethodName name : {MethodName::gjk, MethodName::sat, MethodName::mpr, MethodName::closed_form, MethodName::fastest}) {
+    for (const MethodName name : {MethodName::gjk, MethodName::sat, MethodName::mpr, MethodName::closed_form, MethodName::projections, MethodName::fastest}) {
       change_name(file.method, name);
       try {
         resolve_settings(file.method, file.scene);
@@ -162,7 +162,7 @@ TEST(Check, DistanceQueriesOfOverlapsNameAPointOfBothBodies) {
     }
     if (testing::Test::HasFailure()) break;
   }
-  for (const MethodName name : {MethodName::sat, MethodName::mpr, MethodName::closed_form}) EXPECT_GT(used[static_cast<std::size_t>(name)], count / 20) << method_names[static_cast<std::size_t>(name)];
+  for (const MethodName name : {MethodName::sat, MethodName::mpr, MethodName::closed_form, MethodName::projections}) EXPECT_GT(used[static_cast<std::size_t>(name)], count / 20) << method_names[static_cast<std::size_t>(name)];
   SceneFile nested = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "distance", "bodies": [
     {"shape": {"type": "box", "half_extents": [2, 2, 2]}}, {"shape": {"type": "box", "half_extents": [0.1, 0.1, 0.1]}, "pose": {"position": [1, 0, 0]}}]})", {});
   change_name(nested.method, MethodName::sat);

@@ -51,6 +51,9 @@ struct Line {
   void operator()(const recorded::ClosedFormEnded& e) {
     out << "closed form ended " << closed_form_status_names[static_cast<std::size_t>(e.status)] << ": v =", vector(e.closest);
   }
+  void operator()(const recorded::ProjectionsBegan& e) { out << "projections began at", vector(e.point); }
+  void operator()(const recorded::PointPredicted& e) { out << "predicted:", vector(e.point); }
+  void operator()(const recorded::ProjectionsEnded& e) { out << "projections ended " << projections_status_names[static_cast<std::size_t>(e.status)] << ": " << e.lower_bound << " to " << e.upper_bound; }
   void operator()(const recorded::CastBegan& e) { out << "cast began: " << e.pairs.size() << " pairs"; }
   void operator()(const recorded::CastAdvanced& e) { out << "at " << e.time << " pair " << e.pair[0] << " " << e.pair[1] << " is " << e.distance << " apart"; }
   void operator()(const recorded::CastEnded& e) { out << "cast ended " << cast_status_names[static_cast<std::size_t>(e.status)] << " at " << e.time; }

@@ -1,0 +1,157 @@
+// Projections: the formulas of nearest points and how these move, against support mappings and differences; the method against exact arithmetic and GJK.
+#include "algo/projections.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "algo/solve.h"
+#include "recordings/check.h"
+#include "shapes/error.h"
+#include "tests/oracle/exact_polytopes.h"
+#include "tests/support/random_scenes.h"
+
+namespace gjkdbg {
+namespace {
+
+template <int D>
+Vector<D, double> moves_by(const Projection<D, double>& projection, const Vector<D, double>& dp) {
+  const auto& t = projection.tangent;
+  if constexpr (D == 3) {
+    const double y0 = t[0].dot(dp), y1 = t[1].dot(dp);
+    return t[0] * (projection.k00 * y0 + projection.k01 * y1) + t[1] * (projection.k01 * y0 + projection.k11 * y1);
+  } else {
+    return t[0] * (projection.k00 * t[0].dot(dp));
+  }
+}
+
+/// Points about a core of every kind: x is in it and a support along p - x, and a little away from p it has moved as the derivative says.
+template <int D>
+void formulas_hold(const std::vector<Shape>& shapes) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  for (const Shape& shape : shapes) {
+    const Convex<D, double> body(shape);
+    ASSERT_TRUE(projectable(body));
+    int inside = 0, smooth = 0;
+    const int points = 2000;
+    for (int k = 0; k < points; ++k) {
+      SCOPED_TRACE(type_name(shape, D) + ", point " + std::to_string(k));
+      Vector<D, double> p, dp;
+      const double far = std::pow(10, 0.5 * normal(random));
+      for (int i = 0; i < D; ++i) p[i] = far * normal(random), dp[i] = 1e-6 * normal(random);
+      ProjectionStart<double> start;
+      Projection<D, double> at_p, beside;
+      project_onto(body, p, start, at_p);
+      if (at_p.inside) {
+        ++inside;
+        EXPECT_EQ(at_p.point, p);
+        EXPECT_LE(p.norm(), body.extent() * (1 + 1e-15));
+        continue;
+      }
+      const Vector<D, double> out = p - at_p.point;
+      EXPECT_NEAR(out.dot(body.support(out)), out.dot(at_p.point), 1e-13 * out.norm() * (1 + p.norm()));
+      for (int i = 0; i < at_p.flat && i < D - 1; ++i) EXPECT_NEAR(out.dot(at_p.tangent[static_cast<std::size_t>(i)]), 0, 1e-13 * (1 + p.norm()));
+      project_onto(body, Vector<D, double>(p + dp), start, beside);
+      const double off = (beside.point - at_p.point - moves_by<D>(at_p, dp)).norm();
+      smooth += off < 1e-3 * dp.norm();
+      if (testing::Test::HasFailure()) return;
+    }
+    EXPECT_GT(smooth, (points - inside) * 99 / 100) << type_name(shape, D) << ": the rest may lie where two features meet";
+    EXPECT_LT(inside, points / 2) << type_name(shape, D);
+  }
+}
+
+TEST(Projections, FormulasHold) {
+  formulas_hold<3>({{Sphere{0.5}, 0}, {Capsule{0.2, 0.7, 1}, 0}, {Box{Eigen::Vector3d(-0.3, -0.2, -1), Eigen::Vector3d(0.5, 0.4, 1), true}, 0}, {Cylinder{0.4, 0.7, 0}, 0}, {Cylinder{1, 0.01, 2}, 0},
+                    {Cone{0.5, 0.6, 1}, 0}, {Cone{0.01, 1, 2}, 0}, {Cone{1, 0.01, 0}, 0}, {Ellipsoid{Eigen::Vector3d(0.3, 1, 0.5)}, 0}, {Ellipsoid{Eigen::Vector3d(0.01, 1, 1)}, 0}, {Ellipsoid{Eigen::Vector3d(0.02, 0.01, 2)}, 0}});
+  formulas_hold<2>({{Sphere{0.5}, 0}, {Capsule{0.2, 0.7, 1}, 0}, {Box{Eigen::Vector2d(-0.3, -0.2), Eigen::Vector2d(0.5, 0.4), true}, 0}, {Ellipsoid{Eigen::Vector2d(1, 0.02)}, 0}});
+}
+
+Settings projections(const Scene& scene, Scalar scalar = Scalar::double_precision) {
+  Method method;
+  method.name = MethodName::projections, method.scalar = scalar;
+  return resolve_settings(method, scene);
+}
+
+bool suits(const Scene& scene) {
+  try {
+    (void)projections(scene);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+TEST(Projections, AgreeWithExactArithmeticAndWithGjk) {
+  RandomScenes random(31);
+  const int count = pairs_asked(4500);
+  int used = 0, undecided = 0, apart = 0;
+  for (int k = 0; k < count; ++k) {
+    const bool polytopes = k % 2 == 0;
+    const Scene scene = random.scene(1 + k % 3, static_cast<Family>(k / 3 % family_count), polytopes);
+    if (!suits(scene)) continue;
+    SCOPED_TRACE("pair " + std::to_string(k));
+    ++used;
+    Recorder recorder;
+    const Result r = solve(scene, projections(scene), recorder), gjk = solve(scene, resolve_settings({}, scene));
+    const double size = size_of(scene) + std::abs(*gjk.signed_distance);
+    for (const Event& event : recorder.take_all())
+      if (const auto* end = std::get_if<recorded::ProjectionsEnded>(&event)) undecided += end->status == ProjectionsStatus::undecided;
+    apart += !gjk.intersecting;
+    ASSERT_TRUE(r.signed_distance && r.lower_bound && r.upper_bound);
+    EXPECT_LE(*r.lower_bound, *gjk.upper_bound);
+    EXPECT_GE(*r.upper_bound, *gjk.lower_bound);
+    EXPECT_GE(*r.signed_distance, *r.lower_bound - 1e-15 * size);
+    EXPECT_LE(*r.signed_distance, *r.upper_bound + 1e-15 * size);
+    EXPECT_EQ(*r.signed_distance, *solve(scene, projections(scene)).signed_distance) << "the same with and without a trace";
+    if (polytopes) {
+      if (const auto exact = oracle::signed_distance(scene)) {
+        EXPECT_NEAR(*r.signed_distance, exact->signed_distance, 1e-12 * size);
+        EXPECT_LE(*r.lower_bound, exact->signed_distance + 1e-15 * size);
+        EXPECT_GE(*r.upper_bound, exact->signed_distance - 1e-15 * size);
+      }
+    }
+    for (const Query query : {Query::intersect, Query::distance}) {
+      Scene asked = scene;
+      asked.query = query;
+      const Result least = solve(asked, projections(asked));
+      if (std::abs(*gjk.signed_distance) > 1e-9 * size) {
+        EXPECT_EQ(least.intersecting, gjk.intersecting);
+      }
+      if (query == Query::distance) {
+        EXPECT_NEAR(*least.signed_distance, std::max(0.0, *gjk.signed_distance), 1e-9 * size);
+      } else {
+        EXPECT_FALSE(least.signed_distance || least.normal || least.lower_bound);
+      }
+    }
+    const Result single = solve(scene, projections(scene, Scalar::float_precision));
+    EXPECT_NEAR(*single.signed_distance, *r.signed_distance, 2e-3 * size);
+    if (k % 10 < 2) {
+      SceneFile file;
+      file.scene = scene, file.method.name = MethodName::projections;
+      for (const Finding& finding : check(record(file))) ADD_FAILURE() << finding.step << " " << finding.code << ": " << finding.message;
+    }
+    if (testing::Test::HasFailure()) break;
+  }
+  EXPECT_GT(used, count / 8);
+  EXPECT_GT(apart, used / 4);
+  EXPECT_LT(undecided, used / 10);
+  std::printf("%d of %d pairs, %d apart; %d left to GJK\n", used, count, apart, undecided);
+}
+
+TEST(Projections, AreRefusedWhereThereIsNoFormula) {
+  Scene scene;
+  scene.bodies = {Body{"A", {Sphere{1}, 0}, identity_pose(3)}, Body{"wedge", {PointSet{PointSetKind::hull, {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0)}, {}}, 0}, identity_pose(3)}};
+  scene.dimension = 3;
+  try {
+    (void)projections(scene);
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), "unsupported-method");
+    EXPECT_NE(std::string(e.what()).find("\"wedge\" is a hull"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace gjkdbg
