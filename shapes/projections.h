@@ -9,9 +9,9 @@
 //                     T^T dp = (T^T W T) y, and K = (T^T W T)^-1, whatever the basis T
 //
 // The point of an ellipsoid: x_i = r_i^2 p_i / (r_i^2 + t) with f(t) = sum of (r_i p_i / (r_i^2 + t))^2 = 1, t > 0. Newton's method on 1 / sqrt(f) = 1, which
-// is nearly linear (Moré, Sorensen, "Computing a trust region step", 1983, section 3); exact in one step for a ball.
+// is nearly linear (Moré, Sorensen, "Computing a trust region step", SIAM J. Sci. Stat. Comput. 4(3), 1983); exact in one step for a ball.
 //
-// Hart, "Distance to an ellipsoid", Graphics Gems IV (1994), I.2; Eberly, "Distance from a point to an ellipse, an ellipsoid, or a hyperellipsoid" (2013).
+// Hart, "Distance to an ellipsoid", Graphics Gems IV (1994); Eberly, "Distance from a point to an ellipse, an ellipsoid, or a hyperellipsoid" (2013).
 #pragma once
 
 #include <algorithm>

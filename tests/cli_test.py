@@ -382,9 +382,9 @@ class Program(unittest.TestCase):
             for cell in family["cells"]:
                 good = ["right", "right-within-rounding"]
                 moving = family["name"] in ("T1", "T2")
-                if cell["method"] in ("SAT", "closed form", "root finding", "ray cast") or moving and cell["method"] in ("accelerated", "Polyak", "Newton"):
-                    good.append("not-applicable")  # round shapes; all but balls and segments; what does not move; other directions
-                if cell["method"] in ("signed volumes", "Johnson", "Voronoi regions", "accelerated", "Polyak", "Newton", "SAT", "closed form", "root finding", "ray cast"):
+                if cell["method"] in ("SAT", "closed form", "projections", "root finding", "ray cast") or moving and cell["method"] in ("accelerated", "Polyak", "Newton"):
+                    good.append("not-applicable")  # round shapes; all but balls and segments; hulls; what does not move; other directions
+                if cell["method"] in ("signed volumes", "Johnson", "Voronoi regions", "accelerated", "Polyak", "Newton", "SAT", "closed form", "projections", "root finding", "ray cast"):
                     self.assertIn(cell["verdict"], good, (family["name"], cell["method"]))
                 if cell["verdict"] not in (*good, "not-applicable"):
                     self.assertIn(cell["method"], cell["why"])

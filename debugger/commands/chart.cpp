@@ -37,9 +37,10 @@ bool LabProgress::operator()(double share) {
   return !interrupted;
 }
 
-void draw_both(const std::function<std::string(const std::string&, const std::string&)>& commands, const std::filesystem::path& stem) {
+void draw_both(const std::function<std::string(const std::string&, const std::string&)>& commands, const std::filesystem::path& stem, int width) {
   const std::string svg = stem.string() + ".svg", png = stem.string() + ".png";
-  const bool drawn = run_gnuplot(commands("svg size 1400,1000 font 'Inter,12' background '#ffffff'", svg)) && run_gnuplot(commands("pngcairo size 1400,1000 font 'Inter,11'", png));
+  const std::string size = " " + std::to_string(width) + ",1000";
+  const bool drawn = run_gnuplot(commands("svg size" + size + " font 'Inter,12' background '#ffffff'", svg)) && run_gnuplot(commands("pngcairo size" + size + " font 'Inter,11'", png));
   if (!drawn) std::cerr << "gjkdbg: gnuplot is not installed or failed: no SVG and PNG, only the numbers\n";
 }
 
