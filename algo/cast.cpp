@@ -8,6 +8,7 @@
 #include "algo/cast_meeting.h"
 #include "algo/motion.h"
 #include "algo/ray_cast.h"
+#include "algo/root_finding.h"
 #include "shapes/world_support.h"
 
 namespace gjkdbg {
@@ -63,7 +64,7 @@ class Caster {
     start_ = start;
     if (settings_.name == MethodName::ray_cast) return by_rays();
     Meeting meeting;
-    for (Pair& p : pairs_) p.open = true;
+    for (Pair& p : pairs_) p.open = true, p.last_time = -1;
     double time = 0;
     while (iterations_ < settings_.max_iterations) {
       ++iterations_;
@@ -90,6 +91,7 @@ class Caster {
           continue;
         }
         const double safe = time + (settings_.name == MethodName::root_finding ? root(p, time, gap) : (gap.distance - target_ / 2) / gap.bound);
+        p.last_time = time, p.last_distance = gap.distance, p.last_normal = gap.normal;
         if (safe < next) next = safe, nearest = &p;
       }
       if (!nearest || !(next > time)) {
@@ -174,18 +176,17 @@ class Caster {
     return w.cross(n3).norm() * reach;
   }
 
-  /// Root finding: the time from now until the gap along this normal closes to within the target; supports alone, no GJK.
+  /// Root finding: for how long from now the gap stays open, along this normal or one that turns on.
   double root(const Pair& p, double time, const Gap& gap) {
     if (!turns(p.first) && !turns(p.second)) return (gap.distance - target_ / 2) / gap.closing;  // the gap along n falls evenly
-    double ahead = 0, distance = gap.distance;
-    for (int i = 0; i < 256 && start_ + time + ahead < 1; ++i) {
-      ahead += (distance - target_ / 4) / gap.closing;
-      const Scene two = pair_at(p, time + ahead);
-      const WorldSupport a(two.bodies[0], dimension_), b(two.bodies[1], dimension_);
-      supports_ += 2;
-      distance = gap.normal.dot(b(-gap.normal, true) - a(gap.normal, true));
-      if (distance <= target_ / 2) break;
-    }
+    const auto body = [&](int i, const Shape& shape) {
+      const Body& b = bodies_[static_cast<std::size_t>(i)];
+      return Body{b.name, shape, b.pose, b.motion};
+    };
+    RootFinding finding(body(p.first, *p.shape_a), body(p.second, *p.shape_b), reach_[static_cast<std::size_t>(p.first)], reach_[static_cast<std::size_t>(p.second)], dimension_, time, target_, 1 - start_ - time);
+    double ahead = finding.staying(gap);
+    if (p.last_time >= 0 && gap.distance > p.last_distance / 16) ahead = std::max(ahead, finding.turning(gap, p.last_normal, time - p.last_time));
+    supports_ += finding.support_calls();
     return ahead;
   }
 

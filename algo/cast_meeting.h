@@ -11,6 +11,8 @@ struct Pair {
   int first, second;
   const Shape *shape_a, *shape_b;
   bool open = true;
+  double last_time = -1, last_distance = 0;  ///< when its gap was looked at before; < 0: not yet
+  AnyVector last_normal{};
 };
 
 /// What is known of a pair at a time.

@@ -311,7 +311,7 @@ struct Explain {
     if (e.distance < 0) return {"Inside each other", body(e.pair[0]) + " and " + body(e.pair[1]) + " overlap by " + short_number(-e.distance) + " at time " + short_number(e.time) + ": they meet no later than that."};
     if (meets_at(recording, frame.step)) return {"They meet", at + "That is within the tolerance, and they still approach: this is the time of impact."};
     if (recording.settings.name == MethodName::root_finding)
-      if (const auto* next = next_advance(e.pair)) return {"Surely apart for a while", at + "They come nearer by at most " + short_number(e.bound) + " per unit of time; along this normal the gap stays open until " + short_number(next->time) + "."};
+      if (const auto* next = next_advance(e.pair)) return {"Surely apart for a while", at + "They come nearer by at most " + short_number(e.bound) + " per unit of time; along this normal, or one that turns on with them, the gap stays open until " + short_number(next->time) + "."};
     if (e.bound <= 0) return {"This pair recedes", at + "Along this normal they do not come nearer any more, so it separates them for good: the pair is left out."};
     return {"Surely apart for a while", at + "They come nearer by at most " + short_number(e.bound) + " per unit of time, so until " + short_number(e.time + std::max(0.0, e.distance) / e.bound) + " they cannot meet."};
   }

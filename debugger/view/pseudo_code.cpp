@@ -19,7 +19,7 @@ struct PseudoCodeOf {
     if (ray()) return {"Ray cast", {"x = 0;  v = x - support(r)", "while |v| > tolerance", "  p = support(v)", "  if x beyond the plane at p:", "    if v.r >= 0: miss", "    x = where the ray meets it", "  v = x - point of P nearest x", "hit at x"}, line};
     const bool roots = settings.name == MethodName::root_finding;
     return {roots ? "Root finding" : "Conservative advancement",
-            {"t = 0", "repeat", "  d, n = GJK(A at t, B at t)", "  if d within tolerance: hit", "  bound = closing speed along n", "  if bound <= 0: miss", roots ? "  t = where the gap along n closes" : "  t = t + d / bound"},
+            {"t = 0", "repeat", "  d, n = GJK(A at t, B at t)", "  if d within tolerance: hit", "  bound = closing speed along n", "  if bound <= 0: miss", roots ? "  t = where it closes along n, or n turning" : "  t = t + d / bound"},
             line};
   }
   PseudoCode operator()(const recorded::CastBegan&) const { return cast(0); }

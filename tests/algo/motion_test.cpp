@@ -131,6 +131,39 @@ TEST(Cast, NothingTunnels) {
   EXPECT_GT(hits, runs(10000) / 10);
 }
 
+/// Two methods that look at the pair quite differently: neither goes on after the other has seen the bodies touch.
+TEST(Cast, TurningBodiesMeetByBothMethods) {
+  RandomScenes random(7);
+  int hits = 0, steps = 0;
+  const int count = runs(4000);
+  for (int k = 0; k < count; ++k) {
+    const int d = 2 + k % 2;
+    Scene scene = random.scene(d, Family::general, k % 3 != 0);
+    scene.query = Query::cast;
+    scene.motion = SceneMotion{};
+    scene.motion->gravity = AnyVector::Zero(d);
+    for (Body& b : scene.bodies) {
+      b.motion = resting(b.shape, b.pose.position).motion;
+      for (double& x : b.motion->velocity) x = random.uniform(-6, 6);
+      for (double& x : b.motion->angular_velocity) x = random.uniform(-10, 10);
+    }
+    const Result roots = run(scene, MethodName::root_finding), advancing = run(scene, MethodName::conservative_advancement);
+    EXPECT_NE(roots.status, "iteration_limit") << k;
+    steps += roots.iterations;
+    if (advancing.status != "hit" || !advancing.touching_at) continue;
+    ++hits;
+    EXPECT_EQ(roots.status, "hit") << k;
+    if (!roots.time) return;
+    EXPECT_LE(*roots.time, *advancing.touching_at) << k;
+    if (roots.touching_at) {
+      EXPECT_LE(*advancing.time, *roots.touching_at) << k;
+    }
+    if (testing::Test::HasFailure()) return;
+  }
+  EXPECT_GT(hits, count / 20);
+  EXPECT_LT(steps, 4 * count) << "a normal that turns with the bodies needs 2.7 a pair, one that stays 5.3";
+}
+
 /// What a turning body reaches along a normal, against where it is at many times; and the mean speed, against the gap it would close.
 TEST(Cast, NoTurningBodyReachesFartherThanItsBound) {
   RandomScenes random(44);
