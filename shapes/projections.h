@@ -121,7 +121,7 @@ void project(const ConeCore<S>& core, const Vector<3, S>& p, ProjectionStart<S>&
   const S h = core.half_height, y = p[axis], sigma = std::sqrt(p[i] * p[i] + p[j] * p[j]);
   fixed_point<3, S>(p, out);
   const bool under = y < -h;
-  if (under ? sigma <= core.radius : 2 * h * (sigma - core.radius) + core.radius * (y + h) <= 0) {
+  if (sigma <= core.radius && (under || (y <= h && 2 * h * (sigma - core.radius) + core.radius * (y + h) <= 0))) {
     if (under) out.point[axis] = -h, on_disc(i, j, out);
     else out.inside = true;
     return;

@@ -40,31 +40,37 @@ void formulas_hold(const std::vector<Shape>& shapes) {
       Vector<D, double> p, dp;
       const double far = std::pow(10, 0.5 * normal(random));
       for (int i = 0; i < D; ++i) p[i] = far * normal(random), dp[i] = 1e-6 * normal(random);
+      const bool lattice = k % 4 == 0;  // on edges and in planes that the formulas tell apart
+      if (lattice) p = (p * 4).array().round() / 4;
       ProjectionStart<double> start;
       Projection<D, double> at_p, beside;
       project_onto(body, p, start, at_p);
       if (at_p.inside) {
         ++inside;
         EXPECT_EQ(at_p.point, p);
-        EXPECT_LE(p.norm(), body.extent() * (1 + 1e-15));
+        for (int i = 0; i < 30; ++i) {
+          Vector<D, double> d;
+          for (double& x : d) x = normal(random);
+          EXPECT_LE(d.dot(p), d.dot(body.support(d)) + 1e-15 * d.norm());
+        }
         continue;
       }
       const Vector<D, double> out = p - at_p.point;
-      EXPECT_NEAR(out.dot(body.support(out)), out.dot(at_p.point), 1e-13 * out.norm() * (1 + p.norm()));
+      EXPECT_NEAR(out.dot(body.support(out)), out.dot(at_p.point), (1e-13 * out.norm() + 1e-15) * (1 + p.norm()));
       for (int i = 0; i < at_p.flat && i < D - 1; ++i) EXPECT_NEAR(out.dot(at_p.tangent[static_cast<std::size_t>(i)]), 0, 1e-13 * (1 + p.norm()));
       project_onto(body, Vector<D, double>(p + dp), start, beside);
       const double off = (beside.point - at_p.point - moves_by<D>(at_p, dp)).norm();
-      smooth += off < 1e-3 * dp.norm();
+      smooth += lattice || off < 1e-3 * dp.norm();
       if (testing::Test::HasFailure()) return;
     }
     EXPECT_GT(smooth, (points - inside) * 99 / 100) << type_name(shape, D) << ": the rest may lie where two features meet";
-    EXPECT_LT(inside, points / 2) << type_name(shape, D);
+    EXPECT_LT(inside, points * 3 / 5) << type_name(shape, D);
   }
 }
 
 TEST(Projections, FormulasHold) {
   formulas_hold<3>({{Sphere{0.5}, 0}, {Capsule{0.2, 0.7, 1}, 0}, {Box{Eigen::Vector3d(-0.3, -0.2, -1), Eigen::Vector3d(0.5, 0.4, 1), true}, 0}, {Cylinder{0.4, 0.7, 0}, 0}, {Cylinder{1, 0.01, 2}, 0},
-                    {Cone{0.5, 0.6, 1}, 0}, {Cone{0.01, 1, 2}, 0}, {Cone{1, 0.01, 0}, 0}, {Ellipsoid{Eigen::Vector3d(0.3, 1, 0.5)}, 0}, {Ellipsoid{Eigen::Vector3d(0.01, 1, 1)}, 0}, {Ellipsoid{Eigen::Vector3d(0.02, 0.01, 2)}, 0}});
+                    {Cone{0.5, 0.6, 1}, 0}, {Cone{0.01, 1, 2}, 0}, {Cone{1, 0.01, 0}, 0}, {Cone{0.5, 0, 1}, 0}, {Cone{0, 0.5, 2}, 0}, {Cylinder{0.5, 0, 0}, 0}, {Cylinder{0, 0.5, 1}, 0}, {Capsule{0.2, 0, 1}, 0}, {Box{Eigen::Vector3d(-0.5, 0, -1), Eigen::Vector3d(0.5, 0, 1), true}, 0}, {Ellipsoid{Eigen::Vector3d(0.3, 1, 0.5)}, 0}, {Ellipsoid{Eigen::Vector3d(0.01, 1, 1)}, 0}, {Ellipsoid{Eigen::Vector3d(0.02, 0.01, 2)}, 0}});
   formulas_hold<2>({{Sphere{0.5}, 0}, {Capsule{0.2, 0.7, 1}, 0}, {Box{Eigen::Vector2d(-0.3, -0.2), Eigen::Vector2d(0.5, 0.4), true}, 0}, {Ellipsoid{Eigen::Vector2d(1, 0.02)}, 0}});
 }
 
