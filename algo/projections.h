@@ -105,21 +105,24 @@ class Projections {
   }
 
   /// From the nearest point of a straight line the way leads off at a right angle. However short it is and whatever rounding made of it, it is brought back
-  /// to that, or its plane would cut off the line's far end.
+  /// to that, or its plane would cut off the line's far end. v itself where it leads along a line, far from the answer.
   V upright_way(const V& v) const {
     std::array<V, 4> lines;
     int count = 0;
     for (int i = 0; i < std::min(on_a_.flat, D - 1); ++i) lines[count++] = on_a_.tangent[i];
     for (int i = 0; i < std::min(on_b_.flat, D - 1); ++i) lines[count++] = difference_.rotation() * on_b_.tangent[i];
     if (count == 0) return v;
+    V upright = v - lines[0] * (lines[0].dot(v) / lines[0].dot(lines[0]));
     if constexpr (D == 3) {
       for (int i = 1; i < count; ++i) {
         const V across = lines[0].cross(lines[i]);
         const S squared = across.dot(across);
-        if (squared > S(1e-6) * lines[0].dot(lines[0]) * lines[i].dot(lines[i])) return across * (across.dot(v) / squared);
+        if (!(squared > S(1e-6) * lines[0].dot(lines[0]) * lines[i].dot(lines[i]))) continue;
+        upright = across * (across.dot(v) / squared);
+        break;
       }
     }
-    return v - lines[0] * (lines[0].dot(v) / lines[0].dot(lines[0]));
+    return upright.dot(upright) > S(0.5) * v.dot(v) ? upright : v;
   }
 
   S plane(const V& v, S distance) {

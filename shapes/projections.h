@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "shapes/convex.h"
@@ -174,7 +175,7 @@ void project(const EllipsoidCore<D, S>& core, const Vector<D, S>& p, ProjectionS
     t = t + step > 0 ? t + step : t / 8;
   }
   evaluate();
-  const S onto = S(1.5) - f / 2;  // 1 / sqrt(f): on the surface, however well t is known
+  const S off = f - 1, onto = off * off < std::numeric_limits<S>::epsilon() ? 1 - off / 2 : 1 / std::sqrt(f);  // on the surface, however well t is known
   S n[D];
   int m = 0;
   for (int i = 0; i < D; ++i) {
