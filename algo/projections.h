@@ -12,7 +12,7 @@
 // Sherman and Morrison that divides the step by 1 + w . d.
 //
 // Features are told apart by the projections themselves, so a few steps find them and the last ones converge quadratically, on faces, edges
-// and round surfaces alike. A step after which a and b are farther apart than before is taken back: first the short step is tried, then none. What proves the answer is
+// and round surfaces alike. A step after which a and b are farther apart than before is taken back: less of it is tried, none at last. What proves the answer is
 // the plane across a - b, with a support mapping, as in GJK. Where it does not (the bodies overlap, or rounding speaks), GJK goes on.
 #pragma once
 
@@ -31,7 +31,7 @@ template <int D, class S>
 struct ProjectionsResult {
   ProjectionsStatus status = ProjectionsStatus::undecided;
   int iterations = 0;
-  NearestPoints<D, S> nearest;  ///< valid when separated; when overlapping, b is a point of both cores
+  NearestPoints<D, S> nearest;  ///< valid when separated, of a yes or no without its normal; when overlapping, b is a point of both cores
 };
 
 template <class Difference, class Trace>

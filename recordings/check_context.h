@@ -38,6 +38,7 @@ class CheckContext {
   double stop = 1e-6;                 ///< relative: how far apart the bounds may be when a phase says it has converged
   bool has_supports = false;          ///< false for meshes: then only what the recording itself holds is judged
   bool cores = true;                  ///< whether the recorded vertices are those of the cores, or of the whole bodies
+  double digits() const { return recording.settings.scalar == Scalar::float_precision ? 1e-6 : 1e-14; }  ///< what rounding leaves of a length, relative
   double radius = 0;                  ///< between the recorded vertices' difference and the bodies
   const bool inferred;                ///< whether the ends of phases were put down by `run`, from what the solver answered
 

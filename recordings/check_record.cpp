@@ -159,8 +159,8 @@ void RecordCheck::judge(const recorded::ClosedFormEnded& e) { ++iterations_, sta
 void RecordCheck::nearest_to(std::size_t body, const AnyVector& point, const AnyVector& from) {
   const AnyVector out = from - point;
   if (!c_.has_supports || !c_.cores || !out.allFinite() || !(out.norm() > c_.tolerance)) return;
-  const double beyond = c_.short_of_support(body, out.normalized(), point), digits = c_.recording.settings.scalar == Scalar::float_precision ? 1e-6 : 1e-14;
-  if (beyond > std::max(c_.tolerance, 1e-7 * c_.size) + digits * c_.size * c_.size / out.norm())
+  const double beyond = c_.short_of_support(body, out.normalized(), point);
+  if (beyond > std::max(c_.tolerance, 1e-7 * c_.size) + c_.digits() * c_.size * c_.size / out.norm())
     contradiction((body == 0 ? "a = " : "b = ") + text_of(point) + " is not the point of body " + std::to_string(body) + " nearest to " + text_of(from) + ": the body reaches " + text_of(beyond) + " farther that way.");
 }
 void RecordCheck::judge(const recorded::ProjectionsBegan& e) { projected_from_ = e.point; }

@@ -102,8 +102,7 @@ bool TraceCheck::belong_together(const AnyVector& a, const AnyVector& b, const A
 
 /// World coordinates far from the origin have lost digits.
 double TraceCheck::far_out(const AnyVector& a, const AnyVector& b) const {
-  const bool single = c_.recording.settings.scalar == Scalar::float_precision;
-  return (single ? 1e-6 : 1e-14) * (a.stableNorm() + b.stableNorm());
+  return c_.digits() * (a.stableNorm() + b.stableNorm());
 }
 
 void TraceCheck::judge(const recorded::VertexKept& e) { belong_together(e.a, e.b, e.w); }

@@ -246,14 +246,16 @@ struct Explain {
     if (frame.stage == Frame::Stage::projections) {
       const std::string points = "b = " + short_vector(e.b) + " is the point of B nearest to x, and a = " + short_vector(e.a) + " that of A nearest to b. ";
       if (e.closest.isZero(0)) return {"A point of both bodies", points + "They are the same: the cores overlap."};
-      return {"Nearest points in turn", points + "They are " + short_number(e.closest.norm()) + " apart" + (no_nearer(e) ? ", more than before: the step went too far, and part of it is taken back." : ".")};
+      return {"Nearest points in turn", points + "They are " + short_number(e.closest.norm()) + " apart" + (farther(e) ? ", more than before: the step went too far, and part of it is taken back." : ".")};
     }
     return {"Points projected in turn", "No axis tells how far the boxes are apart: nearest to each other are a corner and an edge, or two corners. So a point looks for the nearest of the other box, and that for its nearest: a = " + short_vector(e.a) + ", b = " + short_vector(e.b) + ", " + short_number(e.closest.norm()) + " apart. Two points that are each the nearest to the other are the closest of all."};
   }
 
-  bool no_nearer(const recorded::PointsProjected& e) const {
+  /// Beyond what rounding makes of two equal distances.
+  bool farther(const recorded::PointsProjected& e) const {
+    const double digits = recording.settings.scalar == Scalar::float_precision ? 1e-5 : 1e-13, least = e.closest.norm() - digits * (e.a.norm() + e.b.norm() + e.closest.norm());
     for (std::size_t i = frame.step; i-- > 0 && !std::holds_alternative<recorded::ProjectionsBegan>(recording.events[i]);)
-      if (const auto* before = std::get_if<recorded::PointsProjected>(&recording.events[i]); before && before->closest.norm() <= e.closest.norm()) return true;
+      if (const auto* before = std::get_if<recorded::PointsProjected>(&recording.events[i]); before && before->closest.norm() < least) return true;
     return false;
   }
 
