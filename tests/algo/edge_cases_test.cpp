@@ -264,5 +264,17 @@ TEST(EdgeCases, WeightsOfAFlatTriangleAroundTheOrigin) {
   weights_make_the_origin<VoronoiRegions<2, double>>();
 }
 
+/// From a cylinder and a capsule: the origin lies 4e-13 beside a tetrahedron 1e-10 thick, too little for Johnson's cofactors. Weights of an inside would miss it by
+/// 6e-3; those of the nearest edge do not.
+TEST(EdgeCases, WeightsOfASliverThatIsOnlyCalledEnclosing) {
+  using V = Eigen::Vector3d;
+  const V w[] = {{2.5, -2.0000184150981237, -1.6955792325745733e-10}, {2.5, 2.0000013056481696, -8.523182160047327e-13}, {-2.5, -2.0000001914059955, -1.8318679906315083e-14}, {2.5, -2.000000000042176, 0}};
+  const auto feature = Johnson<3, double>::closest(w, 4);
+  ASSERT_TRUE(feature.enclosed);
+  V made = V::Zero();
+  for (int i = 0; i < 4; ++i) made += feature.weight[i] * w[feature.index[i]];
+  EXPECT_LE(made.norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace gjkdbg
