@@ -199,12 +199,13 @@ class Gjk {
   }
 
   /// |v| must fall. Where the plane still turns but |v| falls by less than it rounds (a nearly flat part of A - B met at
-  /// a grazing angle), a few steps on the spot are allowed. Newton's directions bring |v| to its least before that, where |v| is known to a floor only.
+  /// a grazing angle), a few steps on the spot are allowed, not twice to the same. Newton's directions bring |v| to its least before that, where |v| is known to a floor only.
   bool accept(const Feature& feature) {
     if (feature.enclosed && result_.lower_bound > 0) return false;  // a support plane has shown the origin outside: rounding speaks
     if (!feature.enclosed && !(feature.v_squared < v_squared_)) {
       const S rounding = by_newton() ? 2 * result_.distance * floor_ : 8 * std::numeric_limits<S>::epsilon() * v_squared_;
-      if (feature.v == result_.v || !(feature.v_squared <= v_squared_ + rounding) || ++steps_on_the_spot_ > 8) return false;
+      if (feature.v == result_.v || feature.v == stepped_to_ || !(feature.v_squared <= v_squared_ + rounding) || ++steps_on_the_spot_ > 8) return false;
+      stepped_to_ = feature.v;
     }
     if constexpr (traced<Trace>) before_ = vertex_numbers();
     result_.simplex.reduce_to(feature);
@@ -310,6 +311,7 @@ class Gjk {
   S plane_ = 0;
   bool enclosed_ = false;
   int steps_on_the_spot_ = 0;
+  V stepped_to_ = V::Zero();                  ///< by the last of these; none leads to the origin
   bool accelerating_ = options_.accelerated;  ///< the momentum still helps
   int asked_in_vain_ = 0;                     ///< supports of directions that lead, which brought nothing: on a face of a body the model of two pieces never comes right
   bool newton_led_ = false;                   ///< the last direction was Newton's

@@ -132,7 +132,7 @@ class Mpr {
     bool inside = false;
     while (true) {
       const V n = portal_normal();
-      if (!(n.dot(w(0) - v0_) > floor_)) return MprStatus::flat;
+      if (!(n.dot(w(0) - v0_) > floor_) || in_a_line()) return MprStatus::flat;
       const S distance = n.dot(w(0));
       if (distance >= -floor_) inside = true, lower_ = std::max(lower_, clearance(n, distance));
       trace_portal(n, distance);
@@ -169,6 +169,15 @@ class Mpr {
     if constexpr (D == 3) n = (w(1) - w(0)).cross(w(2) - w(0));
     if (n.dot(w(0) - v0_) < 0) n = -n;
     return n.stableNormalized();
+  }
+
+  /// Three vertices whose plane is rounding's.
+  bool in_a_line() const {
+    if constexpr (D == 3) {
+      const V p = w(1) - w(0), q = w(2) - w(0);
+      return !(p.cross(q).norm() > floor_ * std::max(p.norm(), q.norm()));
+    }
+    return false;
   }
 
   /// The ray leaves between the new vertex and all of the portal but one: that one goes.
