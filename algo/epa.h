@@ -68,6 +68,7 @@ class Epa {
 
   /// The answer at the limit: the best direction so far; with none yet, the nearest face's.
   EpaStatus limit_reached(int number, const Face& face) {
+    lower_ = face.distance;
     if (result_.face < 0) {
       const Point point = query(face.normal, Phase::epa);
       offer(number, face, face.normal.dot(point.w), point);

@@ -204,9 +204,13 @@ class RecordCheck {
 
  private:
   void contradiction(const std::string& message);
+  void count(int iteration, bool last);
+  void next_in_line(const char* what, int number, int& last);
+  bool differ(double said, double right) const;
+  void same_bounds(const char* whose, double lower, double upper);
   std::string not_as_asked() const;
   void nearest_to(std::size_t body, const AnyVector& point, const AnyVector& from);
-  void add(const std::vector<recorded::Face>& faces);
+  void add(const std::vector<recorded::Face>& faces, bool in_line);
   void judge(const recorded::GjkBegan& e);
   void judge(const recorded::VertexKept& e);
   void judge(const recorded::SupportQueried& e);
@@ -234,11 +238,15 @@ class RecordCheck {
   CheckContext& c_;
   const bool ours_;
   AnyVector first_;  ///< the direction GJK says it begins with, until it has
-  int iterations_ = 0, supports_ = 0, newest_ = -1;
+  int iterations_ = 0, supports_ = 0, newest_ = -1, last_face_ = -1;
   std::set<std::string> statuses_;            ///< of the phases that ended
+  int iteration_ = -1;                        ///< of the event before; -1: it had none, or ended a phase
   std::vector<int> simplex_, asked_;          ///< GJK's: kept, and asked for since; newest first
+  double plane_ = 0;                          ///< the farthest its supports have proven the cores apart
+  double lower_ = 0, upper_ = 0;              ///< what the phase knows of the bodies' signed distance, infinite where nothing, NaN where the events do not say
   std::map<int, recorded::Face> faces_;       ///< EPA's, those removed too
-  std::set<int> chosen_;                      ///< of these
+  std::set<int> standing_, chosen_;           ///< of these
+  double height_ = 0;                         ///< the least along the normals chosen
   std::array<int, 3> axes_{};                 ///< SAT's, by source: how many may still come
   std::optional<recorded::ClosedFormBegan> segments_;
   AnyVector projected_from_;                  ///< the point last said to be projected; empty before any

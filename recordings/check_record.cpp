@@ -2,11 +2,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "recordings/check_context.h"
 
 namespace gjkdbg {
 namespace {
+
+constexpr double unknown = std::numeric_limits<double>::infinity(), unknowable = std::numeric_limits<double>::quiet_NaN();  // from the events
 
 bool same_numbers(std::vector<int> x, std::vector<int> y) {
   std::sort(x.begin(), x.end()), std::sort(y.begin(), y.end());
@@ -23,19 +26,53 @@ void RecordCheck::operator()(const Event& event) {
   if (!ours_) return;
   std::visit(
       [this](const auto& e) {
-        if constexpr (requires { e.iteration; e.status; }) iterations_ += e.iteration;
+        constexpr bool ends = requires { e.status; };
+        if constexpr (requires { e.iteration; }) count(e.iteration, ends);
+        else iteration_ = -1;
         judge(e);
       },
       event);
 }
 
-void RecordCheck::judge(const recorded::GjkBegan& e) { simplex_.clear(), asked_.clear(), first_ = e.direction; }
+/// From event to event of a phase they go up by one, or stay. (The rays of a cast, one for each part of a mesh, have no event between them.)
+void RecordCheck::count(int iteration, bool last) {
+  if (iteration_ >= 0 && !c_.recording.scene.scene.motion && (iteration < iteration_ || iteration > iteration_ + 1)) contradiction("Iteration " + std::to_string(iteration) + " follows iteration " + std::to_string(iteration_) + ".");
+  iteration_ = last ? -1 : iteration;
+  if (last) iterations_ += iteration;
+}
+
+void RecordCheck::next_in_line(const char* what, int number, int& last) {
+  if (number != last + 1) contradiction(what + std::to_string(number) + " comes after number " + std::to_string(last) + ": they are numbered one after the other.");
+  last = number;
+}
+
+bool RecordCheck::differ(double said, double right) const {
+  return std::isfinite(said) && std::abs(said - right) > std::max(c_.tolerance, 1e-7 * c_.size);
+}
+
+/// Bounds that were not known are not said, or are infinite.
+void RecordCheck::same_bounds(const char* whose, double lower, double upper) {
+  if (!c_.has_supports) return;
+  if (differ(lower, lower_)) contradiction(std::string(whose) + " lower bound is " + text_of(lower) + ", but the steps before give " + text_of(lower_) + ".");
+  if (differ(upper, upper_)) contradiction(std::string(whose) + " upper bound is " + text_of(upper) + ", but the steps before give " + text_of(upper_) + ".");
+}
+
+void RecordCheck::judge(const recorded::GjkBegan& e) {
+  simplex_.clear(), asked_.clear(), first_ = e.direction;
+  plane_ = lower_ = -unknown, upper_ = unknown;
+}
 /// Where a simplex was kept, its nearest point leads on.
-void RecordCheck::judge(const recorded::VertexKept& e) { first_ = AnyVector(), asked_.insert(asked_.begin(), e.vertex); }
+void RecordCheck::judge(const recorded::VertexKept& e) {
+  next_in_line("Vertex ", e.vertex, newest_);
+  first_ = AnyVector(), asked_.insert(asked_.begin(), e.vertex);
+}
 void RecordCheck::judge(const recorded::SupportQueried& e) {
   ++supports_;
-  newest_ = e.vertex;
+  next_in_line("Vertex ", e.vertex, newest_);
+  const AnyVector d = e.direction.stableNormalized();
+  if (e.phase == Phase::epa) height_ = std::min(height_, d.dot(e.w));
   if (e.phase != Phase::gjk) return;
+  plane_ = std::max(plane_, -d.dot(e.w)), lower_ = plane_ - c_.radius;
   const AnyVector first = std::exchange(first_, AnyVector());
   if (asked_.empty() && first.size() > 0 && first != e.direction) contradiction("The first direction is " + text_of(e.direction) + ", but GJK began with " + text_of(first) + ".");
   asked_.insert(asked_.begin(), e.vertex);
@@ -53,14 +90,29 @@ void RecordCheck::judge(const recorded::SimplexReduced& e) {
     if (!contains(e.before, v)) contradiction("Vertex " + std::to_string(v) + " was kept, but \"before\" does not hold it.");
   if (e.closest.size() > 0 && e.barycentric.size() != e.region.size()) contradiction("There are " + std::to_string(e.barycentric.size()) + " weights for " + std::to_string(e.region.size()) + " vertices.");
   simplex_ = e.region;
+  if (e.closest.size() > 0) upper_ = e.closest.norm() - c_.radius;
+  same_bounds("The", e.lower_bound, e.upper_bound);
 }
 
-void RecordCheck::judge(const recorded::GjkEnded& e) { statuses_.emplace(gjk_status_names[static_cast<std::size_t>(e.status)]); }
+/// Whether a run may end so: with a simplex that has a volume, or without, at its limit, and with these bounds.
+void RecordCheck::judge(const recorded::GjkEnded& e) {
+  const std::string status(gjk_status_names[static_cast<std::size_t>(e.status)]);
+  statuses_.insert(status);
+  const bool whole = static_cast<int>(simplex_.size()) == c_.dimension + 1;
+  const bool apart = e.status == GjkStatus::converged || e.status == GjkStatus::separated || e.status == GjkStatus::stalled;
+  if ((e.status == GjkStatus::enclosed && !whole) || (apart && whole)) contradiction("GJK ended as \"" + status + "\" with the simplex " + list_of(simplex_) + (whole ? ", which encloses the origin." : ", which encloses nothing."));
+  if (e.status == GjkStatus::iteration_limit && e.iteration < c_.recording.settings.max_iterations)
+    contradiction("GJK ended at its limit of " + std::to_string(c_.recording.settings.max_iterations) + " iterations, after " + std::to_string(e.iteration) + ".");
+  if (e.status == GjkStatus::within_radius && e.upper_bound > c_.tolerance) contradiction("GJK ended with the cores nearer than the radii, but the upper bound is " + text_of(e.upper_bound) + ".");
+  same_bounds("GJK's", e.lower_bound, e.upper_bound);
+}
 
-/// As many vertices as dimensions, in 3D counter-clockwise seen from outside.
-void RecordCheck::add(const std::vector<recorded::Face>& faces) {
+/// As many vertices as dimensions, in 3D counter-clockwise seen from outside, where they are not so nearly in a line that rounding has a say in it.
+void RecordCheck::add(const std::vector<recorded::Face>& faces, bool in_line) {
   for (const recorded::Face& f : faces) {
-    faces_[f.face] = f;
+    if (in_line) next_in_line("Face ", f.face, last_face_);
+    last_face_ = std::max(last_face_, f.face);
+    faces_[f.face] = f, standing_.insert(f.face);
     const std::string name = "Face " + std::to_string(f.face) + ", " + list_of(f.vertices) + ", ";
     if (static_cast<int>(f.vertices.size()) != c_.dimension) contradiction(name + "has " + std::to_string(f.vertices.size()) + " vertices instead of " + std::to_string(c_.dimension) + ".");
     if (c_.dimension != 3 || f.vertices.size() != 3) continue;
@@ -70,19 +122,22 @@ void RecordCheck::add(const std::vector<recorded::Face>& faces) {
       if (!point) return;
       w[i] = *point;
     }
-    const Eigen::Vector3d area = (w[1] - w[0]).cross(w[2] - w[0]), normal = f.normal;
-    if (area.dot(normal) < -0.5 * area.norm() * normal.norm()) contradiction(name + "is listed clockwise, seen from where its normal points.");
+    const Eigen::Vector3d edge = w[1] - w[0], other = w[2] - w[0], area = edge.cross(other), normal = f.normal;
+    const double uncertain = 100 * c_.digits() * c_.size * std::max(edge.norm(), other.norm());
+    if (area.norm() > uncertain && area.dot(normal) < -0.5 * area.norm() * normal.norm()) contradiction(name + "is listed clockwise, seen from where its normal points.");
   }
 }
 
 void RecordCheck::judge(const recorded::PolytopeSeeded& e) {
-  add(e.faces);
+  standing_.clear(), chosen_.clear(), height_ = unknown;
+  add(e.faces, false);  // some may be gone, from the search for a polytope that holds the origin
   std::set<int> used;
   for (const recorded::Face& f : e.faces) used.insert(f.vertices.begin(), f.vertices.end());
   if (!same_numbers(e.vertices, {used.begin(), used.end()})) contradiction("\"vertices\" is " + list_of(e.vertices) + ", but the faces have " + list_of({used.begin(), used.end()}) + ".");
 }
 
-void RecordCheck::judge(const recorded::FaceChosen& e) { chosen_.insert(e.face); }
+/// Of the depth it is the lower bound.
+void RecordCheck::judge(const recorded::FaceChosen& e) { chosen_.insert(e.face), upper_ = -e.distance - c_.radius; }
 
 /// The new vertex is the one asked for last. The horizon is a loop, each edge as a removed face has it, and a new face stands on each.
 void RecordCheck::judge(const recorded::PolytopeGrown& e) {
@@ -101,13 +156,20 @@ void RecordCheck::judge(const recorded::PolytopeGrown& e) {
     if (!loop || !of_removed)
       contradiction("The edge from " + std::to_string(from) + " to " + std::to_string(to) + " of the horizon " + (loop ? "is of no face removed, this way round." : "is not followed by one that starts where it ends."));
   }
-  add(e.added);
+  for (const int number : e.removed) standing_.erase(number);
+  add(e.added, true);
+  upper_ = -unknown, lower_ = -height_ - c_.radius;
+  for (const int number : standing_) upper_ = std::max(upper_, -faces_[number].distance - c_.radius);
+  same_bounds("Minus the polytope's", -e.upper_bound, -e.lower_bound);
 }
 
 /// A face once chosen: the best one, which a later step may have removed. (What shows the bodies apart before there is a polytope to report is none of them.)
 void RecordCheck::judge(const recorded::EpaEnded& e) {
   statuses_.emplace(epa_status_names[static_cast<std::size_t>(e.status)]);
-  if (e.face < 0 || faces_.empty()) return;
+  lower_ = -height_ - c_.radius;
+  if (e.status == EpaStatus::flat || e.status == EpaStatus::separated) lower_ = upper_ = unknowable;
+  if (e.status == EpaStatus::flat && e.face >= 0) contradiction("EPA ended at face " + std::to_string(e.face) + " of a polytope that is flat: it has none.");
+  if (e.face < 0 || !faces_.contains(e.face)) return;
   if (!chosen_.contains(e.face)) contradiction("EPA ends at face " + std::to_string(e.face) + ", which was never chosen.");
   else if (const AnyVector& n = faces_[e.face].normal; n.size() != e.normal.size() || (n - e.normal).norm() > 1e-9) contradiction("EPA ends at face " + std::to_string(e.face) + " with the normal " + text_of(e.normal) + ", but the face's is " + text_of(n) + ".");
   faces_.clear(), chosen_.clear();
@@ -116,14 +178,21 @@ void RecordCheck::judge(const recorded::EpaEnded& e) {
 void RecordCheck::judge(const recorded::PortalFound& e) {
   if (static_cast<int>(e.vertices.size()) != c_.dimension) contradiction("The portal " + list_of(e.vertices) + " has " + std::to_string(e.vertices.size()) + " vertices instead of " + std::to_string(c_.dimension) + ".");
 }
-void RecordCheck::judge(const recorded::MprEnded& e) { statuses_.emplace(mpr_status_names[static_cast<std::size_t>(e.status)]); }
+void RecordCheck::judge(const recorded::MprEnded& e) {
+  statuses_.emplace(mpr_status_names[static_cast<std::size_t>(e.status)]);
+  lower_ = upper_ = unknowable;
+}
 
 /// A pair of edges of which one has no faces beside it is an axis both ways.
 void RecordCheck::judge(const recorded::SatBegan& e) { axes_ = {e.faces_a, e.faces_b, 2 * e.edge_pairs}; }
 void RecordCheck::judge(const recorded::AxisTested& e) {
   if (--axes_[static_cast<std::size_t>(e.source)] < 0) contradiction("More axes of \"" + std::string(axis_source_names[static_cast<std::size_t>(e.source)]) + "\" are tested than there are said to be.");
 }
-void RecordCheck::judge(const recorded::SatEnded& e) { statuses_.emplace(sat_status_names[static_cast<std::size_t>(e.status)]); }
+void RecordCheck::judge(const recorded::SatEnded& e) {
+  if (e.status == SatStatus::overlapping && axes_[0] + axes_[1] > 0) contradiction(std::to_string(axes_[0] + axes_[1]) + " faces have not been looked along, and no axis separates.");
+  statuses_.emplace(sat_status_names[static_cast<std::size_t>(e.status)]);
+  lower_ = upper_ = unknowable;
+}
 
 /// With p = corner + s edge_a - t edge_b, the ends of both parameters reach as far as the difference of the cores does, along its edges and the axes.
 void RecordCheck::judge(const recorded::ClosedFormBegan& e) {
@@ -153,7 +222,10 @@ void RecordCheck::judge(const recorded::LinesSolved& e) {
       contradiction("s = " + text_of(e.s) + " and t = " + text_of(e.t) + " are not where the lines are nearest: the way between is " + text_of(between) + ", not across the edge " + text_of(*edge) + ".");
 }
 
-void RecordCheck::judge(const recorded::ClosedFormEnded& e) { ++iterations_, statuses_.emplace(closed_form_status_names[static_cast<std::size_t>(e.status)]); }
+void RecordCheck::judge(const recorded::ClosedFormEnded& e) {
+  ++iterations_, statuses_.emplace(closed_form_status_names[static_cast<std::size_t>(e.status)]);
+  lower_ = e.lower_bound, upper_ = e.upper_bound;
+}
 
 /// The point of a body nearest to another is a support of it along the way there.
 void RecordCheck::nearest_to(std::size_t body, const AnyVector& point, const AnyVector& from) {
@@ -169,7 +241,10 @@ void RecordCheck::judge(const recorded::PointsProjected& e) {
   if (projected_from_.size() == e.b.size()) nearest_to(1, e.b, projected_from_);
   nearest_to(0, e.a, e.b);
 }
-void RecordCheck::judge(const recorded::ProjectionsEnded& e) { statuses_.emplace(projections_status_names[static_cast<std::size_t>(e.status)]); }
+void RecordCheck::judge(const recorded::ProjectionsEnded& e) {
+  statuses_.emplace(projections_status_names[static_cast<std::size_t>(e.status)]);
+  lower_ = e.lower_bound, upper_ = e.upper_bound;
+}
 
 /// What is missing of what was asked for, or there without having been asked for.
 std::string RecordCheck::not_as_asked() const {
@@ -190,7 +265,10 @@ void RecordCheck::result() {
   if (const std::string wrong = not_as_asked(); !wrong.empty()) contradiction("The scene asks for \"" + std::string(query_names[static_cast<std::size_t>(c_.recording.scene.scene.query)]) + "\", but the result " + wrong + ".");
   if (!statuses_.contains(r.status)) contradiction("The result's status is \"" + r.status + "\", with which no phase ended.");
   if (r.iterations != iterations_) contradiction("The result counts " + std::to_string(r.iterations) + " iterations, the phases " + std::to_string(iterations_) + ".");
-  if (r.support_calls < supports_) contradiction("The result counts " + std::to_string(r.support_calls) + " support calls, but " + std::to_string(supports_) + " were made.");
+  if (c_.recording.scene.scene.query == Query::distance) lower_ = std::max(lower_, 0.0), upper_ = r.intersecting ? unknowable : upper_;
+  if (r.lower_bound && r.upper_bound) same_bounds("The result's", *r.lower_bound, *r.upper_bound);
+  const bool more = c_.recording.settings.name == MethodName::sat;  // to find which corners meet, without a trace
+  if (r.support_calls < supports_ || (r.support_calls > supports_ && !more)) contradiction("The result counts " + std::to_string(r.support_calls) + " support calls, but " + std::to_string(supports_) + " were made.");
 }
 
 }  // namespace gjkdbg

@@ -182,6 +182,7 @@ void TraceCheck::judge(const recorded::GjkEnded& e) {
 void TraceCheck::judge(const recorded::PolytopeGrown& e) { bounds(-e.upper_bound, -e.lower_bound); }
 
 void TraceCheck::judge(const recorded::EpaEnded& e) {
+  if (e.face >= 0 && !faces_.empty() && !faces_.contains(e.face)) c_.find("wrong-face", "EPA ends at face " + std::to_string(e.face) + ", which the polytope never had.");
   if (e.status != EpaStatus::aborted) along(e.normal, -e.depth);
 }
 

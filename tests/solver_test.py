@@ -135,6 +135,19 @@ EDITS = [
     ("box-box-deep", lambda r: r["result"].update(status="iteration_limit"), "inconsistent"),
     ("box-box-deep", lambda r: r["result"].update(iterations=3), "inconsistent"),
     ("box-box-deep", lambda r: r["result"].update(support_calls=3), "inconsistent"),
+    ("box-box-deep", lambda r: r["result"].update(support_calls=99), "inconsistent"),
+    ("box-box-deep", lambda r: at(r, "support_queried", 3).update(iteration=9), "inconsistent"),
+    ("box-box-deep", lambda r: at(r, "support_queried", 7).update(vertex=99), "inconsistent"),
+    ("box-box-deep", lambda r: at(r, "gjk_ended").update(status="stalled"), "inconsistent"),
+    ("box-box-apart", lambda r: at(r, "gjk_ended").update(status="iteration_limit"), "inconsistent"),
+    ("box-box-apart", lambda r: at(r, "gjk_ended").update(upper_bound=9.0), "inconsistent"),
+    ("box-box-apart", lambda r: at(r, "simplex_reduced", 1).update(lower_bound=-5.0), "inconsistent"),
+    ("box-box-apart", lambda r: r["result"].update(upper_bound=9.0), "inconsistent"),
+    ("box-box-deep", lambda r: r["result"].update(lower_bound=-9.0), "inconsistent"),
+    ("box-box-deep", lambda r: at(r, "polytope_grown").update(upper_bound=9.0), "inconsistent"),
+    ("box-box-deep", lambda r: at(r, "epa_ended").update(face=999), "wrong-face"),
+    ("coplanar-triangles", lambda r: at(r, "epa_ended").update(face=0), "inconsistent"),
+    ("2d-deep", lambda r: at(r, "polytope_grown")["added"][1].update(face=9), "inconsistent"),
     ("2d-deep", lambda r: at(r, "polytope_grown")["horizon"].clear(), "inconsistent"),
     ("1d-overlap", lambda r: at(r, "polytope_seeded")["faces"][0]["vertices"].clear(), "inconsistent"),
     ("mpr-2d-deep", lambda r: at(r, "portal_found")["vertices"].pop(), "inconsistent"),
@@ -181,6 +194,7 @@ LATER = [
     ("projections-cylinders", lambda r: at(r, "point_predicted")["point"].__setitem__(2, 0.5), 3),
     ("box-box-deep", lambda r: at(r, "gjk_began").update(direction=[1, 2, 3]), 1),
     ("sat-box-box", lambda r: at(r, "sat_began").update(faces_a=2), 6),
+    ("sat-box-box", lambda r: at(r, "sat_began").update(faces_b=9), 29),
 ]
 
 
