@@ -27,6 +27,9 @@
 #ifdef GJKDBG_WITH_ODE
 #include <ode/ode.h>
 #endif
+#ifdef GJKDBG_WITH_BOX2D
+#include <box2d/b2_distance.h>
+#endif
 
 namespace gjkdbg {
 namespace {
@@ -262,6 +265,58 @@ class OdePair final : public PeerPair {
 };
 #endif
 
+#ifdef GJKDBG_WITH_BOX2D
+/// Its distance of two point sets with radii, begun anew each time; of cores that overlap it knows no depth.
+class Box2dPair final : public PeerPair {
+ public:
+  static std::unique_ptr<PeerPair> prepare(const Scene& scene, double) {
+    if (scene.dimension != 2) return nullptr;
+    auto pair = std::make_unique<Box2dPair>();
+    pair->input_.useRadii = true;
+    if (!pair->set(scene.bodies[0], pair->points_[0], pair->input_.proxyA, pair->input_.transformA)) return nullptr;
+    if (!pair->set(scene.bodies[1], pair->points_[1], pair->input_.proxyB, pair->input_.transformB)) return nullptr;
+    return pair;
+  }
+  Box2dPair() = default;
+  Box2dPair(const Box2dPair&) = delete;  // its proxies point at its points
+  Box2dPair& operator=(const Box2dPair&) = delete;
+
+  PeerAnswer ask() override {
+    b2SimplexCache cache;
+    cache.count = 0;
+    b2DistanceOutput output;
+    b2Distance(&output, &cache, &input_);
+    if (output.distance > 0) return {false, static_cast<double>(output.distance)};
+    return {true, std::nullopt};
+  }
+
+ private:
+  static bool set(const Body& body, std::vector<b2Vec2>& points, b2DistanceProxy& proxy, b2Transform& place) {
+    const auto add = [&](double x, double y) { points.emplace_back(static_cast<float>(x), static_cast<float>(y)); };
+    double radius = body.shape.margin;
+    if (const auto* s = std::get_if<Sphere>(&body.shape.geometry)) {
+      radius += s->radius, add(0, 0);
+    } else if (const auto* b = std::get_if<Box>(&body.shape.geometry)) {
+      add(b->min[0], b->min[1]), add(b->max[0], b->min[1]), add(b->max[0], b->max[1]), add(b->min[0], b->max[1]);
+    } else if (const auto* c = std::get_if<Capsule>(&body.shape.geometry)) {
+      const Eigen::Vector2d tip = c->half_height * Eigen::Vector2d::Unit(c->axis);
+      radius += c->radius, add(tip[0], tip[1]), add(-tip[0], -tip[1]);
+    } else if (const auto* p = std::get_if<PointSet>(&body.shape.geometry); p && p->points.size() <= 255) {  // it counts them in a byte
+      for (const AnyVector& x : p->points) add(x[0], x[1]);
+    } else {
+      return false;
+    }
+    proxy.Set(points.data(), static_cast<int>(points.size()), static_cast<float>(radius));
+    place.p.Set(static_cast<float>(body.pose.position[0]), static_cast<float>(body.pose.position[1]));
+    place.q.c = static_cast<float>(body.pose.matrix(0, 0)), place.q.s = static_cast<float>(body.pose.matrix(1, 0));
+    return true;
+  }
+
+  std::vector<b2Vec2> points_[2];
+  b2DistanceInput input_;
+};
+#endif
+
 }  // namespace
 
 const std::vector<Peer>& peers() {
@@ -278,6 +333,9 @@ const std::vector<Peer>& peers() {
 #endif
 #ifdef GJKDBG_WITH_ODE
       {"ODE", false, &OdePair::prepare},
+#endif
+#ifdef GJKDBG_WITH_BOX2D
+      {"Box2D (float)", false, &Box2dPair::prepare},
 #endif
   };
   return all;

@@ -13,7 +13,7 @@ namespace gjkdbg {
 
 struct PeerAnswer {
   bool overlap = false;
-  std::optional<double> signed_distance;  ///< unset: the library does not say (libccd and ODE do not when apart)
+  std::optional<double> signed_distance;  ///< unset: the library does not say (libccd and ODE do not when apart, Box2D not when overlapping)
 };
 
 /// One pair made ready; `ask` is what is timed: a library's signed query where it has one.
@@ -29,7 +29,7 @@ struct Peer {
   std::unique_ptr<PeerPair> (*prepare)(const Scene& scene, double tolerance);  ///< null: the library has no such shapes
 };
 
-/// Those this was built with, none perhaps. 3D scenes only.
+/// Those this was built with, none perhaps. Box2D takes scenes in 2D, the others in 3D.
 const std::vector<Peer>& peers();
 
 }  // namespace gjkdbg

@@ -160,7 +160,7 @@ class Table : public benchmark::ConsoleReporter {
   std::vector<std::string> order_;
 };
 
-void register_family(const std::string& name, const Source& source, bool three_d) {
+void register_family(const std::string& name, const Source& source) {
   const auto add = [&](const std::string& method, MethodName which, Query query = Query::penetration, Scalar scalar = Scalar::double_precision) {
     Method m;
     m.name = which, m.scalar = scalar;
@@ -171,7 +171,7 @@ void register_family(const std::string& name, const Source& source, bool three_d
   add("float", MethodName::gjk, Query::penetration, Scalar::float_precision);
   add("yes-no", MethodName::gjk, Query::intersect);
   const auto made_of = [&](std::initializer_list<std::string_view> families) { return std::any_of(families.begin(), families.end(), [&](auto f) { return name.starts_with(f); }); };
-  if (made_of({"boxes", "faces-touching", "slivers", "size-ratio", "offset-1e5", "rectangles"})) add("sat", MethodName::sat);
+  if (made_of({"boxes", "faces-touching", "slivers", "size-ratio", "offset-1e5", "rectangles", "octagons"})) add("sat", MethodName::sat);
   if (made_of({"curved", "ellipsoids"})) {
     add("fastest", MethodName::fastest);
     for (const auto& [method, which] : {std::pair("at-1e-6", MethodName::gjk), std::pair("fastest-at-1e-6", MethodName::fastest)}) {
@@ -181,7 +181,6 @@ void register_family(const std::string& name, const Source& source, bool three_d
     }
   }
   if (name.starts_with("capsules")) add("closed-form", MethodName::closed_form);
-  if (!three_d) return;
   for (const Peer& peer : peers())
     benchmark::RegisterBenchmark((name + "/" + peer.name).c_str(), [=, &peer](benchmark::State& state) { theirs(state, name, source, peer); })->MinTime(0.1);
 }
@@ -193,12 +192,12 @@ int main(int argc, char** argv) {
   using namespace gjkdbg;
   const int pairs = pair_count();
   for (const std::string& name : chart_family_names())
-    register_family(name, [=] { return chart_families(pairs, {name})[0].scenes; }, !name.ends_with("-2d"));
-  for (const int vertices : {8, 32, 128, 512, 2000, 8000}) register_family("size/" + std::to_string(vertices), [=] { return hull_pairs(std::max(1, pairs / 5), vertices, 0.1); }, true);
+    register_family(name, [=] { return chart_families(pairs, {name})[0].scenes; });
+  for (const int vertices : {8, 32, 128, 512, 2000, 8000}) register_family("size/" + std::to_string(vertices), [=] { return hull_pairs(std::max(1, pairs / 5), vertices, 0.1); });
   for (const double gap : {1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12}) {
     char name[32];
     std::snprintf(name, sizeof name, "gap/%.0e", gap);
-    register_family(name, [=] { return hull_pairs(pairs, 32, gap); }, true);
+    register_family(name, [=] { return hull_pairs(pairs, 32, gap); });
   }
   for (const int vertices : {8, 32, 128, 1000})
     for (const Start start : {Start::centres, Start::previous})
