@@ -29,11 +29,15 @@
 
 namespace gjkdbg {
 
-/// Points of the cores with a - b = depth * normal.
-template <int D, class S>
-struct BoxWitnesses {
-  Vector<D, S> a, b;
-};
+/// A body's core where it is a box of which no side is zero: for two of them the theorem is at its plainest.
+template <int D, class S, class Body>
+const BoxCore<D, S>* solid_box(const Body& body) {
+  if constexpr (requires { body.core(); }) {
+    const auto* box = std::get_if<BoxCore<D, S>>(&body.core());
+    return box && (box->half().array() > 0).all() ? box : nullptr;
+  }
+  return nullptr;
+}
 
 template <class Difference, class Trace>
 class BoxSat {
@@ -51,7 +55,7 @@ class BoxSat {
   }
 
   /// `enough`: the separation that needs no more, >= 0; infinite where the distance is asked for.
-  SatResult<D, S> run(S enough) {
+  const SatResult<D, S>& run(S enough) {
     enough_ = enough;
     trace_(SatBegan<V, Viewed>{D, D, D == 3 ? 9 : 0});
     result_.status = all_axes();
@@ -66,13 +70,13 @@ class BoxSat {
 
   /// Of boxes that overlap. Unset where rounding has the last word.
   /// Features that lie flat on one another, or nearly so, share more than one point: projecting on one box and the other in turn finds one.
-  std::optional<BoxWitnesses<D, S>> witnesses() const {
+  std::optional<SatWitnesses<D, S>> witnesses() const {
     const V out = result_.normal * result_.depth;
     V a = start(out);
     for (int round = 8; round > 0; --round) {
       a = nearest_on_a(a);
       const V b = in_b(a - out), on_b = clamped(b, half_b_);
-      if (near(b, on_b)) return BoxWitnesses<D, S>{a, a - out};
+      if (near(b, on_b)) return SatWitnesses<D, S>{a, a - out};
       a = from_b(on_b) + out;
     }
     return std::nullopt;

@@ -11,7 +11,7 @@ template <int D, class S>
 class Prepared final : public PreparedPair {
  public:
   Prepared(const Body& a, const Body& b, double scale)
-      : a_(a.shape, scale), b_(b.shape, scale), pose_a_(a.pose), pose_b_(b.pose), scale_(scale), features_a_(a.shape), features_b_(b.shape),
+      : a_(a.shape, scale), b_(b.shape, scale), pose_a_(a.pose), pose_b_(b.pose), scale_(scale), features_a_(a.shape, D), features_b_(b.shape, D),
         segment_a_(core_segment(a_)), segment_b_(core_segment(b_)) {}
 
   Result run(const Settings& settings, Query query) override {
@@ -20,27 +20,12 @@ class Prepared final : public PreparedPair {
     if (settings.name == MethodName::closed_form)
       return ClosedForm<D, S, NoTrace>(segment_a_.value(), segment_b_.value(), pose_a_, pose_b_, scale_, WorkingFrame<D, S>(pose_a_, scale_), trace).run(query);
     if (settings.start == Start::previous && warm_.size == 0) warm_ = warm_start<D, S>(settings.initial_simplex, a_, b_, scale_);
-    const bool sat = settings.name == MethodName::sat;
-    return PairSolver<D, S, NoTrace>(a_, b_, pose_a_, pose_b_, scale_, settings, workspace, trace, sat ? features_a_.get() : nullptr, sat ? features_b_.get() : nullptr, &warm_).run(query);
+    return PairSolver<D, S, NoTrace>(a_, b_, pose_a_, pose_b_, scale_, settings, workspace, trace, &features_a_, &features_b_, &warm_).run(query);
   }
   std::vector<SimplexPoint> simplex() const override { return simplex_points(warm_, a_, b_, scale_); }
   void place(const Pose& a, const Pose& b) override { pose_a_ = a, pose_b_ = b; }
 
  private:
-  /// Faces and edges, found when SAT first asks for them.
-  class LateFeatures {
-   public:
-    explicit LateFeatures(const Shape& shape) : shape_(shape) {}
-    const Features* get() {
-      if (!features_) features_ = features_of(shape_, D);
-      return &*features_;
-    }
-
-   private:
-    Shape shape_;
-    std::optional<Features> features_;
-  };
-
   Convex<D, S> a_, b_;
   PlacedAxes<D> pose_a_, pose_b_;
   double scale_;

@@ -10,7 +10,8 @@
 // sphere of directions cross: edge a between the normals a1, a2 of A, and edge b between -b1, -b2 of B. With the edges' directions u, v
 // (parallel to a1 x a2 and b1 x b2) the arcs cross iff -b1, -b2 lie on either side of the great circle of a1, a2, the other way
 // round too, and both arcs on the same half of the sphere.
-// Where A - B is flat, its sides would count as well: `spans` says no, and GJK is asked instead.
+// Where the least h is no more than rounding, the origin may still lie well outside, before an edge or a corner so sharp that all faces beside it pass it as
+// closely: the bodies are then `undecided`, and GJK is asked. Where A - B is flat, its sides would count as well: `spans` says no, and GJK is asked instead.
 #pragma once
 
 #include <cmath>
@@ -28,6 +29,12 @@ struct SatResult {
   int iterations = 0;                         ///< axes tested
   Vector<D, S> normal = Vector<D, S>::Zero();  ///< unit, from body 0 towards body 1: where h is least
   S depth = 0;                                ///< h there: of the cores, negative when separated
+};
+
+/// Points of the cores with a - b = depth * normal.
+template <int D, class S>
+struct SatWitnesses {
+  Vector<D, S> a, b;
 };
 
 template <class Difference, class Trace>
@@ -108,7 +115,7 @@ class Sat {
     for (const Edge3& a : edges_a_)
       for (const Edge3& b : edges_b_)
         if (pair_separates(a, b)) return SatStatus::separated;
-    return result_.depth < -floor_ ? SatStatus::separated : SatStatus::overlapping;
+    return result_.depth < -floor_ ? SatStatus::separated : result_.depth > floor_ ? SatStatus::overlapping : SatStatus::undecided;
   }
 
   bool pair_separates(const Edge3& a, const Edge3& b) {

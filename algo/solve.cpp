@@ -48,13 +48,11 @@ Result solve_convex(const Body& a, const Body& b, const Query query, const Setti
     return ClosedForm<D, S, WorldTrace<D, S>>(core_segment(core_a).value(), core_segment(core_b).value(), a.pose, b.pose, scale, frame, trace).run(query);
   }
   thread_local Workspace<D, S> workspace;
-  std::optional<Features> features_a, features_b;
-  if (settings.name == MethodName::sat) features_a = features_of(a.shape, D), features_b = features_of(b.shape, D);
-  const Features *fa = features_a ? &*features_a : nullptr, *fb = features_b ? &*features_b : nullptr;
+  LateFeatures features_a(a.shape, D), features_b(b.shape, D);
   const WorkingFrame<D, S> frame(a.pose, core_a.reference(), scale);
   WorldTrace<D, S> trace(frame, numbers, *sink);
   WarmStart<D, S> warm = warm_start<D, S>(simplex ? *simplex : settings.initial_simplex, core_a, core_b, scale);
-  const Result result = PairSolver<D, S, WorldTrace<D, S>>(core_a, core_b, a.pose, b.pose, scale, settings, workspace, trace, fa, fb, &warm).run(query);
+  const Result result = PairSolver<D, S, WorldTrace<D, S>>(core_a, core_b, a.pose, b.pose, scale, settings, workspace, trace, &features_a, &features_b, &warm).run(query);
   if (simplex) *simplex = simplex_points(warm, core_a, core_b, scale);
   return result;
 }

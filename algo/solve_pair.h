@@ -16,6 +16,7 @@
 #include "algo/gjk.h"
 #include "algo/johnson.h"
 #include "algo/mpr.h"
+#include "algo/polygon_sat.h"
 #include "algo/projections.h"
 #include "algo/result.h"
 #include "algo/sat.h"
@@ -39,7 +40,7 @@ class PairSolver {
  public:
   /// The working frame's lengths are the world's times `scale`, as in the shapes. Keeps references.
   PairSolver(const A& a, const B& b, const PlacedAxes<D>& pose_a, const PlacedAxes<D>& pose_b, double scale, const Settings& settings,
-             Workspace<D, S>& workspace, Trace& trace, const Features* features_a = nullptr, const Features* features_b = nullptr,
+             Workspace<D, S>& workspace, Trace& trace, LateFeatures* features_a = nullptr, LateFeatures* features_b = nullptr,
              WarmStart<D, S>* warm = nullptr)
       : difference_(a, b, pose_a, pose_b, scale),
         frame_(pose_a, a.reference(), scale), settings_(settings), workspace_(workspace), trace_(trace),
@@ -222,9 +223,13 @@ class PairSolver {
 
   /// False: apart, and the distance is asked for, or the theorem does not hold.
   bool sat_decides(Query query) {
-    const auto *box_a = solid_box(difference_.a()), *box_b = solid_box(difference_.b());
-    if (box_a && box_b) return boxes_decide(*box_a, *box_b, query);
-    Sat<Difference, Trace> sat(difference_, *features_a_, *features_b_, difference_.rotation(), trace_);
+    const auto *box_a = solid_box<D, S>(difference_.a()), *box_b = solid_box<D, S>(difference_.b());
+    if (box_a && box_b) return solids_decide(BoxSat<Difference, Trace>(difference_, *box_a, *box_b, trace_), query);
+    if constexpr (D == 2) {
+      const PolygonOf<S> a(difference_.a()), b(difference_.b());
+      if (a.polygon && b.polygon) return solids_decide(PolygonSat<Difference, Trace>(difference_, *a.polygon, *b.polygon, trace_), query);
+    }
+    Sat<Difference, Trace> sat(difference_, features_a_->get(), features_b_->get(), difference_.rotation(), trace_);
     if (!sat.spans()) {
       if constexpr (traced<Trace>)
         trace_(Warning<V, Viewed>{"flat-difference", "The difference of the bodies has no volume: faces and edges alone do not decide. GJK does."});
@@ -237,18 +242,10 @@ class PairSolver {
     return true;
   }
 
-  /// A box of which no side is zero: for two of them the theorem is at its plainest.
-  const BoxCore<D, S>* solid_box(const A& body) const {
-    if constexpr (requires { body.core(); }) {
-      const auto* box = std::get_if<BoxCore<D, S>>(&body.core());
-      return box && (box->half().array() > 0).all() ? box : nullptr;
-    }
-    return nullptr;
-  }
-  bool boxes_decide(const BoxCore<D, S>& a, const BoxCore<D, S>& b, Query query) {
+  template <class SolidSat>
+  bool solids_decide(SolidSat sat, Query query) {
     const bool yes_or_no = query == Query::intersect;
-    BoxSat<Difference, Trace> sat(difference_, a, b, trace_);
-    const SatResult<D, S> found = sat.run(yes_or_no ? difference_.radius() : std::numeric_limits<S>::infinity());
+    const SatResult<D, S>& found = sat.run(yes_or_no ? difference_.radius() : std::numeric_limits<S>::infinity());
     if (sat_answers(found, yes_or_no)) {
       if (!yes_or_no) sat_witnesses(found, sat.witnesses(), query);
       return true;
@@ -288,18 +285,18 @@ class PairSolver {
     witnesses(found.a, found.b, found.normal, found.distance);
   }
 
-  /// False: apart, and the distance is asked for.
+  /// False: apart, and the distance is asked for, or not decided.
   bool sat_answers(const SatResult<D, S>& found, bool yes_or_no) {
     result_->iterations += found.iterations;
     result_->status = sat_status_names[static_cast<std::size_t>(found.status)];
     const bool apart = found.status == SatStatus::separated;
     axis_ = found.normal;
-    if (apart && !(yes_or_no && -static_cast<double>(found.depth) > radius_)) return false;
+    if (found.status == SatStatus::undecided || (apart && !(yes_or_no && -static_cast<double>(found.depth) > radius_))) return false;
     result_->intersecting = !apart;
     return true;
   }
 
-  void sat_witnesses(const SatResult<D, S>& found, const std::optional<BoxWitnesses<D, S>>& known, Query query) {
+  void sat_witnesses(const SatResult<D, S>& found, const std::optional<SatWitnesses<D, S>>& known, Query query) {
     if (query == Query::distance) return inside_both(std::max(S(0), difference_.rounding_floor() - found.depth));
     V a, b;
     if (known) {
@@ -383,7 +380,7 @@ class PairSolver {
   Trace& trace_;
   const double radius_;
   const bool polytopes_;
-  const Features *features_a_, *features_b_;  ///< of SAT
+  LateFeatures *features_a_, *features_b_;  ///< of SAT
   WarmStart<D, S>* warm_;
   V push_ = V::Zero();
   V axis_ = V::Zero();  ///< the separating axis found, where GJK goes on

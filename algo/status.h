@@ -53,8 +53,9 @@ inline constexpr std::array<std::string_view, 5> cast_status_names{"hit", "miss"
 enum class SatStatus {
   overlapping,  ///< no axis separates; the least overlap is the depth
   separated,    ///< the last axis separates
+  undecided,    ///< the least overlap or the widest gap is within rounding: where the difference is sharp, bodies well apart have no wider one
 };
-inline constexpr std::array<std::string_view, 2> sat_status_names{"overlapping", "separated"};
+inline constexpr std::array<std::string_view, 3> sat_status_names{"overlapping", "separated", "undecided"};
 
 enum class ClosedFormStatus {
   separated,    ///< of the cores: the formula gives their distance

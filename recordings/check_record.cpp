@@ -189,7 +189,7 @@ void RecordCheck::judge(const recorded::AxisTested& e) {
   if (--axes_[static_cast<std::size_t>(e.source)] < 0) contradiction("More axes of \"" + std::string(axis_source_names[static_cast<std::size_t>(e.source)]) + "\" are tested than there are said to be.");
 }
 void RecordCheck::judge(const recorded::SatEnded& e) {
-  if (e.status == SatStatus::overlapping && axes_[0] + axes_[1] > 0) contradiction(std::to_string(axes_[0] + axes_[1]) + " faces have not been looked along, and no axis separates.");
+  if (e.status != SatStatus::separated && axes_[0] + axes_[1] > 0) contradiction(std::to_string(axes_[0] + axes_[1]) + " faces have not been looked along, and no axis separates.");
   statuses_.emplace(sat_status_names[static_cast<std::size_t>(e.status)]);
   lower_ = upper_ = unknowable;
 }

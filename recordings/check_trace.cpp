@@ -11,7 +11,7 @@ constexpr std::string_view gjk = "gjk", epa = "epa", mpr = "mpr", sat = "sat", p
 
 /// The phase an event takes place in; empty for those that stand for themselves.
 struct PhaseOf {
-  bool boxes;  ///< SAT projects points, too
+  bool in_sat;  ///< which projects points, too
   std::string_view operator()(const recorded::SupportQueried& e) const {
     constexpr std::array names{gjk, epa, epa, mpr, sat, moving, projections};
     return names[static_cast<std::size_t>(e.phase)];
@@ -23,7 +23,7 @@ struct PhaseOf {
   std::string_view operator()(const recorded::PolytopeGrown&) const { return epa; }
   std::string_view operator()(const recorded::PortalFound&) const { return mpr; }
   std::string_view operator()(const recorded::AxisTested&) const { return sat; }
-  std::string_view operator()(const recorded::PointsProjected&) const { return boxes ? sat : projections; }
+  std::string_view operator()(const recorded::PointsProjected&) const { return in_sat ? sat : projections; }
   std::string_view operator()(const recorded::PointPredicted&) const { return projections; }
   std::string_view operator()(const recorded::LinesSolved&) const { return closed_form; }
   std::string_view operator()(const recorded::CastAdvanced&) const { return moving; }

@@ -28,16 +28,22 @@ double exact_reference(double low, double high) {
 }  // namespace
 
 template <int D, class S>
-void Convex<D, S>::set_vertices(std::vector<Vector<D, double>> points, double scale) {
+void Convex<D, S>::set_vertices(std::vector<Vector<D, double>> points, double scale, bool polygon) {
   Vector<D, double> low = points.front(), high = points.front();
   for (const auto& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
   for (int i = 0; i < D; ++i) reference_[i] = exact_reference(low[i], high[i]);
-  VerticesCore<D, S> core;
-  for (const auto& p : points) {
-    core.vertices.push_back(((p - reference_) * scale).template cast<S>());
+  for (auto& p : points) {
     extent_ = std::max(extent_, (p - reference_).norm() * scale);
+    p = (p - reference_) * scale;
   }
   reference_ *= scale;
+  if constexpr (D == 2)
+    if (polygon) {
+      core_ = PolygonCore<S>(points);
+      return;
+    }
+  VerticesCore<D, S> core;
+  for (const auto& p : points) core.vertices.push_back(p.template cast<S>());
   core_ = std::move(core);
 }
 
@@ -68,13 +74,16 @@ void Convex<D, S>::set(const Geometry& g, double scale) {
   } else if constexpr (std::is_same_v<Geometry, PointSet>) {
     const bool reduce = g.kind == PointSetKind::hull || g.kind == PointSetKind::polygon;
     std::vector<Vector<D, double>> points;
-    if (!reduce) {
+    if (!reduce && (D != 2 || g.points.size() < 3)) {
       points.assign(g.points.begin(), g.points.end());
       return set_vertices(std::move(points), scale);
     }
     const ConvexHull hull = convex_hull(g.points, D);
-    for (const int i : hull.vertices) points.push_back(g.points[i]);
-    set_vertices(std::move(points), scale);
+    const bool polygon = D == 2 && hull.rank == 2 && hull.faces.front().size() >= 3;
+    std::vector<int> corners = polygon ? hull.faces.front() : hull.vertices;
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());  // as given, where they are given in this order
+    for (const int i : corners) points.push_back(g.points[i]);
+    set_vertices(std::move(points), scale, polygon);
     if constexpr (D == 3)
       if (hull.rank == 3 && hull.vertices.size() >= table_from && !hull.neighbours.empty()) {
         const VertexFours<D, S>& in_core = std::get<VerticesCore<D, S>>(core_).vertices;

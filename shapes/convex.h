@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "shapes/hull_core.h"
+#include "shapes/polygon_core.h"
 #include "shapes/shape.h"
 #include "shapes/support_mappings.h"
 
@@ -20,6 +21,11 @@ template <int D, class S>
 struct CoreVariant {
   using type = std::variant<PointCore<D, S>, SegmentCore<D, S>, BoxCore<D, S>, EllipsoidCore<D, S>, VerticesCore<D, S>,
                             SumCore<D, S>>;
+};
+template <class S>
+struct CoreVariant<2, S> {
+  using type = std::variant<PointCore<2, S>, SegmentCore<2, S>, BoxCore<2, S>, EllipsoidCore<2, S>, VerticesCore<2, S>, PolygonCore<S>,
+                            SumCore<2, S>>;
 };
 template <class S>
 struct CoreVariant<3, S> {
@@ -67,7 +73,7 @@ class Convex {
 
   template <class Geometry>
   void set(const Geometry& geometry, double scale);
-  void set_vertices(std::vector<Vector<D, double>> points, double scale);
+  void set_vertices(std::vector<Vector<D, double>> points, double scale, bool polygon = false);  ///< polygon: corners, counter-clockwise
 };
 
 template <int D, class S>

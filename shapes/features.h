@@ -22,4 +22,19 @@ struct Features {
 /// Nothing for what is not a polytope with a radius around it (corners_of).
 std::optional<Features> features_of(const Shape& shape, int dimension);
 
+/// The same, found when first asked for.
+class LateFeatures {
+ public:
+  LateFeatures(const Shape& shape, int dimension) : shape_(shape), dimension_(dimension) {}
+  const Features& get() {
+    if (!features_) features_ = features_of(shape_, dimension_).value();
+    return *features_;
+  }
+
+ private:
+  Shape shape_;
+  int dimension_;
+  std::optional<Features> features_;
+};
+
 }  // namespace gjkdbg

@@ -29,6 +29,25 @@ struct Four {
 };
 
 template <class S>
+typename Four<S>::Values greater_of(typename Four<S>::Values a, typename Four<S>::Values b) {
+#ifdef __SSE2__  // one instruction, which compilers do not find by themselves
+  if constexpr (sizeof(S) == 8) return _mm_max_pd(a, b);
+  else return _mm_max_ps(a, b);
+#else
+  return a > b ? a : b;
+#endif
+}
+template <class S>
+typename Four<S>::Values lesser_of(typename Four<S>::Values a, typename Four<S>::Values b) {
+#ifdef __SSE2__
+  if constexpr (sizeof(S) == 8) return _mm_min_pd(a, b);
+  else return _mm_min_ps(a, b);
+#else
+  return a < b ? a : b;
+#endif
+}
+
+template <class S>
 class GreatestOfFours {
   using F = Four<S>;
   using Values = typename F::Values;
@@ -42,7 +61,7 @@ class GreatestOfFours {
   void take(const F& values) {
     for (int i = 0; i < F::parts; ++i) {
       from_[i] = chosen(values.part[i] > most_[i], count_, from_[i]);
-      most_[i] = greater_of(values.part[i], most_[i]);
+      most_[i] = greater_of<S>(values.part[i], most_[i]);
     }
     count_ += 1;
   }
@@ -57,7 +76,7 @@ class GreatestOfFours {
     Places place = 4 * from_[0];
     for (int i = 1; i < F::parts; ++i) {
       place = chosen(most_[i] > most, 4 * from_[i] + F::width * i, place);
-      most = greater_of(most_[i], most);
+      most = greater_of<S>(most_[i], most);
     }
     int best = 0;
     for (int k = 1; k < F::width; ++k) best += (k - best) & -static_cast<int>(most[k] > most[best]);
@@ -66,15 +85,6 @@ class GreatestOfFours {
 
  private:
   static Places chosen(Places which, Places yes, Places no) { return (which & yes) | (~which & no); }
-
-  static Values greater_of(Values a, Values b) {
-#ifdef __SSE2__  // one instruction, which compilers do not find by themselves
-    if constexpr (sizeof(S) == 8) return _mm_max_pd(a, b);
-    else return _mm_max_ps(a, b);
-#else
-    return a > b ? a : b;
-#endif
-  }
 
   Values most_[F::parts];
   Places from_[F::parts] = {};  ///< the four in which that stood

@@ -1,9 +1,9 @@
 #include "shapes/vertex_fours.h"
 
 #ifdef GJKDBG_AVX2
-#include <immintrin.h>
-
 #include <limits>
+
+#include "shapes/fours_avx2.h"
 
 namespace gjkdbg {
 namespace {
@@ -37,12 +37,7 @@ struct GreatestOfEverySecond {
   const __m256d alike = _mm256_cmp_pd(odd.most, even.most, _CMP_EQ_OQ), greater = _mm256_cmp_pd(odd.most, even.most, _CMP_GT_OQ);
   const __m256d from = _mm256_blendv_pd(even.from, odd.from, _mm256_or_pd(greater, _mm256_and_pd(alike, later)));
   const __m256d most = _mm256_max_pd(odd.most, even.most);
-  const __m256i places = _mm256_add_epi64(_mm256_slli_epi64(_mm256_castpd_si256(from), 2), _mm256_set_epi64x(3, 2, 1, 0));
-  const __m128d low = _mm256_castpd256_pd128(most), high = _mm256_extractf128_pd(most, 1), greatest = _mm_max_pd(high, low);
-  const __m128i place = _mm_blendv_epi8(_mm256_castsi256_si128(places), _mm256_extracti128_si256(places, 1), _mm_castpd_si128(_mm_cmpgt_pd(high, low)));
-  alignas(16) std::int64_t of_two[2];
-  _mm_store_si128(reinterpret_cast<__m128i*>(of_two), place);
-  return static_cast<std::size_t>(of_two[_mm_comigt_sd(_mm_unpackhi_pd(greatest, greatest), greatest)]);
+  return found_by_avx2(most, _mm256_castpd_si256(from)).place;
 }
 
 }  // namespace gjkdbg

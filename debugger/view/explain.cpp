@@ -229,7 +229,7 @@ struct Explain {
 
   Explanation operator()(const recorded::SatBegan& e) const {
     if (recording.scene.scene.dimension == 2)
-      return {"SAT begins", "Two convex polygons are apart exactly when the normal of an edge separates them: " + std::to_string(e.faces_a) + " normals of A's edges and " + std::to_string(e.faces_b) + " of B's. Parallel edges share one."};
+      return {"SAT begins", "Two convex polygons are apart exactly when the normal of an edge separates them: " + std::to_string(e.faces_a) + " normals of A's edges and " + std::to_string(e.faces_b) + " of B's." + (e.faces_a == 2 && e.faces_b == 2 ? " Opposite edges of a box share one." : "")};
     return {"SAT begins", "Two polytopes are apart exactly when the normal of a face or the cross product of two edges separates them: " + std::to_string(e.faces_a) + " faces of A, " + std::to_string(e.faces_b) +
                               " of B, and of " + std::to_string(e.edge_pairs) + " pairs of edges those that make a face of A - B." +
                               (e.faces_a == 3 && e.faces_b == 3 && e.edge_pairs == 9 ? " Of two boxes opposite faces and parallel edges share an axis." : "")};
@@ -248,7 +248,7 @@ struct Explain {
       if (e.closest.isZero(0)) return {"A point of both bodies", points + "They are the same: the cores overlap."};
       return {"Nearest points in turn", points + "They are " + short_number(e.closest.norm()) + " apart" + (farther(e) ? ", more than before: the step went too far, and part of it is taken back." : ".")};
     }
-    return {"Points projected in turn", "No axis tells how far the boxes are apart: nearest to each other are a corner and an edge, or two corners. So a point looks for the nearest of the other box, and that for its nearest: a = " + short_vector(e.a) + ", b = " + short_vector(e.b) + ", " + short_number(e.closest.norm()) + " apart. Two points that are each the nearest to the other are the closest of all."};
+    return {"Points projected in turn", "No axis tells how far the bodies are apart: nearest to each other are a corner and an edge, or two corners. So a point looks for the nearest of the other body, and that for its nearest: a = " + short_vector(e.a) + ", b = " + short_vector(e.b) + ", " + short_number(e.closest.norm()) + " apart. Two points that are each the nearest to the other are the closest of all."};
   }
 
   /// Beyond what rounding makes of two equal distances.
@@ -261,7 +261,8 @@ struct Explain {
 
   Explanation operator()(const recorded::SatEnded& e) const {
     const std::string title = "SAT ends: " + std::string(sat_status_names[static_cast<std::size_t>(e.status)]);
-    if (e.status == SatStatus::separated) return {title, "One separating axis is proof enough: the bodies (their cores) are apart. Of two boxes it leads from one nearest point to the other, unless rounding or edges nearly parallel leave that to GJK; of other bodies GJK measures the distance, if it is asked for."};
+    if (e.status == SatStatus::separated) return {title, "One separating axis is proof enough: the bodies (their cores) are apart. Of two boxes, or two polygons in the plane, it leads from one nearest point to the other, unless rounding or edges nearly parallel leave that to GJK; of other bodies GJK measures the distance, if it is asked for."};
+    if (e.status == SatStatus::undecided) return {title, "The widest gap, " + short_number(e.distance) + ", is within rounding. Bodies that touch have none wider, but neither have sharp ones that point at each other from afar. GJK tells them apart."};
     return {title, "No axis separates, so the bodies overlap; the least overlap of all axes, " + short_number(-e.distance) + " along " + short_vector(e.normal) + ", is the depth, exactly."};
   }
 

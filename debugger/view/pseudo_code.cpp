@@ -77,9 +77,9 @@ struct PseudoCodeOf {
   PseudoCode operator()(const recorded::ProjectionsEnded& e) const { return projections(e.status == ProjectionsStatus::separated ? 5 : e.status == ProjectionsStatus::overlapping ? 4 : no_line); }
   PseudoCode operator()(const recorded::PointsProjected&) const {
     if (settings.name == MethodName::projections) return projections(3);
-    return {"SAT of two boxes, apart", {"a = a point of A at the widest gap", "repeat", "  b = point of B nearest a", "  a = point of A nearest b", "until neither moves"}, 3};
+    return {"SAT, apart across no axis", {"a = a point of A at the widest gap", "repeat", "  b = point of B nearest a", "  a = point of A nearest b", "until neither moves"}, 3};
   }
-  PseudoCode operator()(const recorded::SatEnded& e) const { return sat(e.status == SatStatus::separated ? 3 : 5); }
+  PseudoCode operator()(const recorded::SatEnded& e) const { return sat(e.status == SatStatus::separated ? 3 : e.status == SatStatus::overlapping ? 5 : no_line); }
 
   PseudoCode closed_form(int line) const {
     return {"Closed form", {"c = a0 - b0;  w = c + s u - t v", "s = (u.v c.v - v.v c.u) / det", "clamp s to 0 .. 1", "t = (c + s u).v / v.v", "if t out of range: clamp it, s again", "distance = |w|, or depth if O inside"}, line};

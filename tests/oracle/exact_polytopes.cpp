@@ -262,6 +262,7 @@ void all_features(Nearest& best, bool exactly) {
       for (std::size_t i = 0; i < q.size(); ++i)
         for (std::size_t j = i + 1; j < q.size(); ++j) {
           vertex_to_edge(best, p[v], f[v], q[i], g[i], q[j], g[j], sign, exactly);
+          if (s.dimension < 3) continue;  // apart in the plane, a vertex faces no triangle
           for (std::size_t k = j + 1; k < q.size(); ++k)
             vertex_to_triangle(best, p[v], f[v], {&q[i], &q[j], &q[k]}, {g[i], g[j], g[k]}, sign, exactly);
         }

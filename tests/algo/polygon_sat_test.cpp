@@ -1,0 +1,260 @@
+// The separating axes of two polygons, or a polygon and a box, in the plane against exact arithmetic: edges that lie along one another, nearly so, slivers,
+// edges of very different length, many corners, far places, one inside the other, with margins.
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <random>
+
+#include "algo/solve.h"
+#include "recordings/recording.h"
+#include "shapes/convex_hull.h"
+#include "shapes/world_support.h"
+#include "tests/oracle/exact_polytopes.h"
+#include "tests/support/random_scenes.h"
+
+namespace gjkdbg {
+namespace {
+
+class PolygonPairs {
+ public:
+  /// k chooses: whole numbers or not, how many corners, a box for one of them, how nearly parallel, slivers, margins, a far place, away from its origin.
+  Scene scene(int k) {
+    Scene s;
+    s.dimension = 2, s.query = Query::penetration;
+    const PointSet first = points(k);
+    for (int i = 0; i < 2; ++i) {
+      Shape shape{k % 4 == 1 && i == 1 ? first : points(k), k % 13 == 5 ? uniform(0, 0.5) : 0};
+      if (i == 0) shape.geometry = first;
+      if (k % 6 == 5 && i == k % 2) shape.geometry = Box{-Eigen::Vector2d(1, uniform(0.01, 2)), Eigen::Vector2d(uniform(0.1, 1), 0.5), false};
+      Body b{i == 0 ? "A" : "B", shape, identity_pose(2)};
+      for (int j = 0; j < 2; ++j) b.pose.position[j] = k % 2 == 0 ? whole(-3, 3) : uniform(-2.5, 2.5);
+      if (k % 11 == 3) b.pose.position.array() += 1e5;
+      const double turned = k % 5 == 0 ? 0 : k % 5 == 1 ? std::pow(10, -uniform(1, 17)) * i : k % 5 == 2 ? std::numbers::pi * i : uniform(-3, 3);
+      b.pose.rotation = PlaneAngle{turned};
+      b.pose.matrix = Eigen::Rotation2Dd(turned).toRotationMatrix();
+      s.bodies.push_back(b);
+    }
+    return s;
+  }
+
+ private:
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
+
+  /// Solid: at least three corners not in a line.
+  PointSet points(int k) {
+    for (;;) {
+      PointSet set{PointSetKind::hull, {}, {}};
+      const int count = k % 17 == 4 ? 16 : whole(3, 11);
+      const double thin = k % 7 == 3 ? std::pow(10, -uniform(0, 6)) : 1, away = k % 19 == 6 ? 1e3 : 0, turn = uniform(0, 6);
+      for (int i = 0; i < count; ++i) {
+        const double t = k % 3 == 1 ? turn + 2 * std::numbers::pi * i / count : k % 23 == 9 ? std::pow(10, -uniform(0, 9)) : uniform(0, 2 * std::numbers::pi);
+        if (k % 3 == 0) set.points.push_back(Eigen::Vector2d(whole(-2, 2), whole(-2, 2) * thin));
+        else set.points.push_back(Eigen::Vector2d(std::cos(t) + away, std::sin(t) * thin - away));
+      }
+      if (convex_hull(set.points, 2).rank == 2) return set;
+    }
+  }
+
+  std::mt19937 random_{23};
+};
+
+Settings sat(const Scene& scene, Scalar scalar = Scalar::double_precision) {
+  Method method;
+  method.name = MethodName::sat, method.scalar = scalar;
+  return resolve_settings(method, scene);
+}
+
+std::vector<AnyVector> corners(const Shape& shape) {
+  if (const auto* set = std::get_if<PointSet>(&shape.geometry)) return set->points;
+  const Box& box = std::get<Box>(shape.geometry);
+  return {box.min, Eigen::Vector2d(box.max[0], box.min[1]), box.max, Eigen::Vector2d(box.min[0], box.max[1])};
+}
+
+double extent(const Scene& scene) {
+  double size = 0;
+  for (const Body& body : scene.bodies)
+    for (const AnyVector& p : corners(body.shape)) size = std::max(size, p.norm() + body.shape.margin);
+  return size;
+}
+
+/// How far a point lies outside the core of a body of the scene, at most, beyond its margin.
+double outside(const Body& body, const AnyVector& point) {
+  const AnyVector local = body.pose.matrix.transpose() * (point - body.pose.position);
+  const std::vector<AnyVector> all = corners(body.shape);
+  const auto loop = convex_hull(all, 2).faces.front();
+  double most = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const AnyVector &from = all[static_cast<std::size_t>(loop[i])], &to = all[static_cast<std::size_t>(loop[(i + 1) % loop.size()])];
+    const Eigen::Vector2d edge = to - from, n = Eigen::Vector2d(edge[1], -edge[0]).normalized();
+    most = std::max(most, n.dot(Eigen::Vector2d(local - from)) - body.shape.margin);
+  }
+  return most;
+}
+
+double across(const Scene& scene, const AnyVector& n) {
+  const AnyVector a = WorldSupport(scene.bodies[0], 2)(n, true), b = WorldSupport(scene.bodies[1], 2)(-n, true);
+  return n.dot(b - a);
+}
+
+TEST(PolygonSat, AgreesWithExactArithmetic) {
+  PolygonPairs random;
+  const int pairs = pairs_asked(3000);
+  double worst = 0, worst_float = 0;
+  int overlapping = 0, by_gjk = 0;
+  for (int k = 0; k < pairs; ++k) {
+    const Scene scene = random.scene(k);
+    SCOPED_TRACE("pair " + std::to_string(k));
+    const auto exact = oracle::signed_distance(scene);
+    ASSERT_TRUE(exact);
+    const double size = extent(scene), place = size + scene.bodies[0].pose.position.norm(), sd = exact->signed_distance;
+    const Result r = solve(scene, sat(scene));
+    ASSERT_TRUE(r.signed_distance && r.normal && r.witness_a && r.witness_b && r.lower_bound && r.upper_bound);
+    const bool by_edges = (r.status == "overlapping" || r.status == "separated") && r.support_calls <= r.iterations;  // else GJK gave the distance or the witnesses
+    const double error = std::abs(*r.signed_distance - sd) / size, tolerance = by_edges ? 1e-14 : 1e-14 + 1e-12 * std::abs(sd) / size;
+    worst = std::max(worst, error);
+    EXPECT_LE(error, tolerance) << *r.signed_distance << " for " << sd;
+    EXPECT_LE(*r.lower_bound, sd + 1e-15 * std::abs(sd));
+    EXPECT_GE(*r.upper_bound, sd - 1e-15 * std::abs(sd));
+    EXPECT_LE(*r.upper_bound - *r.lower_bound, 1e-12 * size);
+    EXPECT_NEAR(r.normal->norm(), 1, 1e-14);
+    EXPECT_LE((*r.witness_b - *r.witness_a - *r.signed_distance * *r.normal).norm(), 1e-14 * place);
+    const double off = by_edges ? 1e-14 * place : 1e-10 * size + 1e-14 * place;
+    EXPECT_LE(outside(scene.bodies[0], *r.witness_a), off);
+    EXPECT_LE(outside(scene.bodies[1], *r.witness_b), off) << r.status << " " << sd << " " << r.support_calls;
+    EXPECT_NEAR(across(scene, *r.normal), sd, tolerance * size + 1e-14 * place) << "the normal certifies the distance";
+    overlapping += r.intersecting, by_gjk += !by_edges;
+    for (const Query query : {Query::intersect, Query::distance}) {
+      Scene asked = scene;
+      asked.query = query;
+      const Result least = solve(asked, sat(asked));
+      if (std::abs(sd) > 1e-13 * size) {
+        EXPECT_EQ(least.intersecting, sd <= 0);
+      }
+      if (query == Query::distance) {
+        EXPECT_NEAR(*least.signed_distance, std::max(0.0, sd), tolerance * size);
+      } else {
+        EXPECT_FALSE(least.signed_distance || least.normal || least.lower_bound);
+      }
+    }
+    const Result single = solve(scene, sat(scene, Scalar::float_precision));
+    worst_float = std::max(worst_float, std::abs(*single.signed_distance - sd) / size);
+    if (testing::Test::HasFailure()) break;
+  }
+  EXPECT_LE(worst_float, 1e-5);
+  EXPECT_GT(overlapping, pairs / 10);
+  EXPECT_LT(by_gjk, pairs / 20);
+  std::printf("worst error %.2g, in float %.2g of the size; %d of %d overlap, %d need GJK\n", worst, worst_float, overlapping, pairs, by_gjk);
+}
+
+/// The trace looks along one edge after the other, the query four at a time, and on some processors in other instructions: the same numbers.
+TEST(PolygonSat, TracesWhatItComputes) {
+  PolygonPairs random;
+  int projected = 0;
+  for (int k = 0; k < 2000; ++k) {
+    Scene scene = random.scene(k);
+    if (k % 8 == 7) scene.query = Query::intersect;
+    for (const Scalar scalar : {Scalar::double_precision, Scalar::float_precision}) {
+      Recorder recorder;
+      const Result r = solve(scene, sat(scene, scalar), recorder), silent = solve(scene, sat(scene, scalar));
+      EXPECT_EQ(r.intersecting, silent.intersecting);
+      EXPECT_EQ(r.signed_distance, silent.signed_distance) << k;
+      EXPECT_EQ(r.normal, silent.normal);
+      EXPECT_EQ(r.witness_a, silent.witness_a);
+      EXPECT_EQ(r.witness_b, silent.witness_b);
+      EXPECT_EQ(r.lower_bound, silent.lower_bound);
+      EXPECT_EQ(r.iterations, silent.iterations);
+      EXPECT_EQ(r.support_calls, silent.support_calls);
+      if (scalar == Scalar::float_precision) continue;
+      const double near = 1e-14 * (extent(scene) + scene.bodies[0].pose.position.norm());
+      for (const auto& event : recorder.take_all()) {
+        projected += std::holds_alternative<recorded::PointsProjected>(event);
+        const auto* axis = std::get_if<recorded::AxisTested>(&event);
+        if (!axis) continue;
+        EXPECT_NEAR(axis->direction.norm(), 1, 1e-14);
+        EXPECT_NEAR(axis->distance, across(scene, axis->direction), near) << k;
+      }
+    }
+  }
+  EXPECT_GT(projected, 100);
+}
+
+/// Tip to tip, so sharp that along every edge's normal the gap is less than rounding: bodies well apart, once taken for an overlap; in space edge to edge.
+TEST(PolygonSat, NeedlesTipToTipAreApart) {
+  for (const int dimension : {2, 3})
+    for (const Scalar scalar : {Scalar::double_precision, Scalar::float_precision})
+      for (const double thin : {1e-3, 1e-6, 1e-9, 1e-11, 1e-12})
+        for (const double gap : {1e-5, 1e-3, 1e-2}) {
+          SCOPED_TRACE(std::to_string(dimension) + "D, thickness " + std::to_string(std::log10(thin)) + ", gap " + std::to_string(gap));
+          Scene scene;
+          scene.dimension = dimension, scene.query = Query::penetration;
+          for (const double side : {-1.0, 1.0}) {
+            PointSet set{PointSetKind::hull, {}, {}};
+            for (const double end : {-1.0, 1.0}) {
+              if (dimension == 2) set.points.push_back(Eigen::Vector2d(side, end * thin));
+              else for (const double y : {-1.0, 1.0}) set.points.push_back(Eigen::Vector3d(side, y, end * thin));
+              if (dimension == 3) set.points.push_back(Eigen::Vector3d(0, end, 0));
+            }
+            if (dimension == 2) set.points.push_back(Eigen::Vector2d(0, 0));
+            Body b{"", {set, 0}, identity_pose(dimension)};
+            if (side > 0) b.pose.position[0] = gap;
+            scene.bodies.push_back(b);
+          }
+          const Result r = solve(scene, sat(scene, scalar));
+          EXPECT_FALSE(r.intersecting) << r.status;
+          EXPECT_NEAR(*r.signed_distance, gap, scalar == Scalar::float_precision ? 1e-6 * gap : 1e-15);
+          EXPECT_LE(*r.lower_bound, gap);
+          EXPECT_GE(*r.upper_bound, gap);
+          scene.query = Query::intersect;
+          EXPECT_FALSE(solve(scene, sat(scene, scalar)).intersecting);
+        }
+}
+
+/// Corner to corner and corner to another edge: no axis tells the distance, projections do.
+TEST(PolygonSat, ProjectsPointsWhereNoAxisTellsTheDistance) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int apart = 0, projected = 0;
+  for (int k = 0; k < 2000; ++k) {
+    Scene scene;
+    scene.dimension = 2, scene.query = Query::penetration;
+    for (int i = 0; i < 2; ++i) {
+      PointSet set{PointSetKind::hull, {}, {}};
+      for (int j = 0; j < 3 + k % 7; ++j) {
+        const double t = 2 * std::numbers::pi * (j + 0.3 * uniform(random)) / (3 + k % 7);
+        set.points.push_back(Eigen::Vector2d(std::cos(t), std::sin(t)));
+      }
+      Body b{"", {set, 0}, identity_pose(2)};
+      b.pose.position = Eigen::Vector2d(3 * uniform(random), 3 * uniform(random));
+      scene.bodies.push_back(b);
+    }
+    const auto exact = oracle::signed_distance(scene);
+    ASSERT_TRUE(exact);
+    if (exact->signed_distance < 1e-3) continue;
+    ++apart;
+    Recorder recorder;
+    const Result r = solve(scene, sat(scene), recorder);
+    EXPECT_EQ(r.status, "separated");
+    EXPECT_NEAR(*r.signed_distance, exact->signed_distance, 1e-14);
+    double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
+    int steps = 0;
+    for (const auto& event : recorder.take_all())
+      if (const auto* e = std::get_if<recorded::PointsProjected>(&event)) {
+        EXPECT_LE(e->upper_bound, upper + 1e-15) << "a projection never leads away";
+        EXPECT_LE(lower = e->lower_bound, exact->signed_distance);
+        EXPECT_GE(upper = e->upper_bound, exact->signed_distance);
+        EXPECT_LE(std::max(outside(scene.bodies[0], e->a), outside(scene.bodies[1], e->b)), 1e-14);
+        ++steps;
+      }
+    if (steps > 0) {
+      EXPECT_LE(upper - lower, 1e-13);
+    }
+    projected += steps > 0;
+    if (testing::Test::HasFailure()) break;
+  }
+  EXPECT_GT(apart, 500);
+  EXPECT_GT(projected, apart / 8);
+}
+
+}  // namespace
+}  // namespace gjkdbg
