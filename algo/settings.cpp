@@ -5,6 +5,7 @@
 
 #include "algo/solve.h"
 #include "shapes/convex.h"
+#include "shapes/corners.h"
 #include "shapes/error.h"
 
 namespace gjkdbg {
@@ -35,9 +36,12 @@ bool has_corners(const Shape& shape) {
 
 /// SAT needs faces and edges.
 void check_polytopes(const Scene& scene) {
-  for (const Body& body : scene.bodies)
+  for (const Body& body : scene.bodies) {
     if (!has_corners(body.shape))
       refuse("method \"sat\" needs polytopes with or without a radius; body \"" + body.name + "\" is a " + type_name(body.shape, scene.dimension), "/method/name");
+    if (std::holds_alternative<Sum>(body.shape.geometry) && !corners_of(body.shape, scene.dimension))
+      refuse("method \"sat\" takes sums of at most " + std::to_string(largest_sum) + " pairs of corners; body \"" + body.name + "\" has more", "/method/name");
+  }
 }
 
 /// A core that is a point or a segment, as the closed form needs; on a line every body is one.

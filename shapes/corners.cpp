@@ -3,9 +3,6 @@
 namespace gjkdbg {
 namespace {
 
-constexpr std::size_t largest_sum = 4096;
-
-
 std::optional<Corners> corners_of_geometry(const Sphere& s, int dimension) { return Corners{{AnyVector::Zero(dimension)}, s.radius}; }
 
 std::optional<Corners> corners_of_geometry(const Box& box, int dimension) {

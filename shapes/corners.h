@@ -14,7 +14,9 @@ struct Corners {
   double radius = 0;
 };
 
-/// Nothing for what is round (cylinder, cone, ellipsoid), for a mesh, and for sums with more than 4096 pairs of corners.
+inline constexpr std::size_t largest_sum = 4096;  ///< pairs of corners
+
+/// Nothing for what is round (cylinder, cone, ellipsoid), for a mesh, and for sums with more pairs of corners than `largest_sum`.
 std::optional<Corners> corners_of(const Shape& shape, int dimension);
 
 }  // namespace gjkdbg

@@ -183,6 +183,25 @@ TEST(EdgeCases, ASimulationNeedsADepth) {
   EXPECT_NO_THROW(resolve_settings(m, scene));
 }
 
+/// SAT needs the corners of a sum, which are as many as pairs of its parts': it once looked for features that nobody had made.
+TEST(EdgeCases, SatRefusesASumOfTooManyCorners) {
+  const auto ring = [](int corners) {
+    PointSet set{PointSetKind::hull, {}, {}};
+    for (int i = 0; i < corners; ++i) set.points.push_back(Eigen::Vector2d(std::cos(2 * std::numbers::pi * i / corners), std::sin(2 * std::numbers::pi * i / corners)));
+    return std::make_shared<const Shape>(Shape{set, 0});
+  };
+  const auto scene = [&](int corners) {
+    Scene s;
+    s.dimension = 2, s.query = Query::penetration;
+    s.bodies = {Body{"A", {Sum{ring(corners), ring(corners)}, 0}, identity_pose(2)}, Body{"B", *ring(5), identity_pose(2)}};
+    return s;
+  };
+  Method sat;
+  sat.name = MethodName::sat;
+  EXPECT_EQ(solve(scene(64), resolve_settings(sat, scene(64))).status, "overlapping");
+  EXPECT_THROW(resolve_settings(sat, scene(65)), Error);
+}
+
 TEST(EdgeCases, TwoBodiesAtRestAreAskedWhetherTheyOverlap) {
   for (const MethodName name : {MethodName::conservative_advancement, MethodName::ray_cast, MethodName::root_finding})
     for (const double x : {0.5, 2.5}) {
