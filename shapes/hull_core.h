@@ -78,7 +78,7 @@ class HullCore {
   /// Where d leaves the cube: its largest component says through which side, the others in which of that side's cells.
   int cell_of(const V& d) const {
     const S x = std::abs(d[0]), y = std::abs(d[1]), z = std::abs(d[2]), xy = std::max(x, y);
-    const int first = y > x, axis = z > xy ? 2 : first;  // no branch: which it is, is nothing a processor can guess
+    const int first = y > x, axis = z > xy ? 2 : first;
     constexpr int after[3] = {1, 2, 0};
     const S most = std::max(xy, z), half = static_cast<S>(across_) / 2, scale = most > 0 ? half / most : S(0);
     const int u = place(d[after[axis]] * scale + half), v = place(d[after[after[axis]]] * scale + half);

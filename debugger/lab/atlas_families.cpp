@@ -91,6 +91,28 @@ void overlaps(std::vector<AtlasFamily>& out, bool quick) {
   out.push_back(stacked), out.push_back(same), out.push_back(spheres), out.push_back(deep), out.push_back(shallow);
 }
 
+/// Triangles tip to tip in the plane, wedges edge to edge in space.
+AtlasFamily tips(bool quick) {
+  AtlasFamily family{"S4", "blades tip to tip: along every face's normal the gap is less than rounding", {}};
+  const double gap = 1e-3;
+  for (const double thin : powers(1e-1, 1e-12, quick))
+    for (const int dimension : {2, 3}) {
+      Scene scene;
+      scene.dimension = dimension;
+      for (const double side : {-1.0, 1.0}) {
+        Body body{side < 0 ? "A" : "B", {PointSet{PointSetKind::hull, {}, {}}, 0}, identity_pose(dimension)};
+        auto& corners = std::get<PointSet>(body.shape.geometry).points;
+        if (dimension == 2) corners = {Eigen::Vector2d(0, 0), Eigen::Vector2d(side, thin), Eigen::Vector2d(side, -thin)};
+        for (const double y : {-1.0, 1.0})
+          if (dimension == 3) corners.insert(corners.end(), {vec(0, y, 0), vec(side, y, thin), vec(side, y, -thin)});
+        if (side > 0) body.pose.position[0] = gap;
+        scene.bodies.push_back(body);
+      }
+      family.cases.push_back({thin, scene, gap});
+    }
+  return family;
+}
+
 void degenerate(std::vector<AtlasFamily>& out, bool quick) {
   AtlasFamily slab{"F1", "flat plates: the difference has next to no volume", {}};
   for (const double t : powers(1e-3, 1e-12, quick)) slab.cases.push_back({t, pair(box(vec(1, 1, t), vec(0, 0, 0)), box(vec(1, 1, t), vec(1.0 / 3, 0.2, t))), -t});
@@ -103,7 +125,7 @@ void degenerate(std::vector<AtlasFamily>& out, bool quick) {
   for (const double l : powers(10, 1e6, quick)) needles.cases.push_back({l, pair(box(vec(l, 1 / l, 1 / l), vec(0, 0, 0)), box(vec(1 / l, l, 1 / l), vec(0, 0, 4 / l))), 4 / l - 2 * (1 / l)});
   AtlasFamily sliver{"S2", "a triangle of vanishing height: its normal is rounding", {}};
   for (const double h : powers(1e-2, 1e-12, quick)) sliver.cases.push_back({h, pair(points({vec(0, 0, 0), vec(1, 0, 0), vec(0.5, h, 0)}), points({vec(0.5, 0, 1)})), 1});
-  out.push_back(slab), out.push_back(flat), out.push_back(lines), out.push_back(needles), out.push_back(sliver);
+  out.push_back(slab), out.push_back(flat), out.push_back(lines), out.push_back(needles), out.push_back(sliver), out.push_back(tips(quick));
 }
 
 /// A cylinder that pokes through a triangle far larger than itself leaves across the triangle's plane: as deep as its support, r |a_xy| + h |a_z| with

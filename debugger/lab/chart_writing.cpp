@@ -37,7 +37,7 @@ std::string in_double(const std::string& method) { return method.substr(0, metho
 std::string style_of(const std::string& method) {
   static constexpr std::pair<const char*, const char*> colours[] = {{"signed volumes", "#0072B2"}, {"Johnson", "#D55E00"}, {"Voronoi regions", "#009E73"}, {"accelerated", "#CC79A7"}, {"Polyak", "#E69F00"}, {"Newton", "#882255"},
                                                                     {"MPR", "#56B4E9"},            {"SAT", "#B8A800"},     {"closed form", "#7B3294"}, {"projections", "#B2182B"}, {"Bullet", "#222222"},          {"FCL", "#555555"},         {"libccd GJK", "#777777"},
-                                                                    {"libccd MPR", "#999999"},     {"ODE", "#BBBBBB"}};
+                                                                    {"libccd MPR", "#999999"},     {"ODE", "#BBBBBB"},           {"Box2D", "#8C8450"}};
   const char* colour = "#000000";
   for (const auto& [name, value] : colours)
     if (method.starts_with(name)) colour = value;
@@ -51,10 +51,10 @@ struct Axis {
   bool front;
 };
 
-/// Panels in rows of three, the legend in the first.
+/// Panels in rows of up to three, the legend in the first.
 std::string panels(const Chart& chart, const std::string& terminal, const std::string& file, const Axis& axis) {
-  const std::size_t rows = (chart.panels.size() + 2) / 3;
-  std::string out = "set terminal " + terminal + "\nset output '" + file + "'\nset multiplot layout " + std::to_string(rows) + ",3 title '" + axis.title + "'\n";
+  const std::size_t columns = std::clamp<std::size_t>(chart.panels.size(), 1, 3), rows = (chart.panels.size() + columns - 1) / columns;
+  std::string out = "set terminal " + terminal + "\nset output '" + file + "'\nset multiplot layout " + std::to_string(rows) + "," + std::to_string(columns) + " title '" + axis.title + "'\n";
   out += "set logscale xy\nset format x '1e%T'\nset grid lc rgb '#dddddd'\nset xrange " + std::string(axis.x_range) + "\nset xtics 1e4\nset key bottom left samplen 1 spacing 0.75 maxrows 5 font ',7'\n";
   std::set<std::string> explained;
   for (const ChartPanel& panel : chart.panels) {

@@ -7,7 +7,7 @@
 namespace gjkdbg {
 namespace {
 
-constexpr std::pair<const char*, std::uint32_t> peers[] = {{"Bullet", 0x8c8f96}, {"FCL", 0x7d8a5c}, {"libccd GJK", 0x9a7358}, {"libccd MPR", 0x5f8296}, {"ODE", 0x8f6c92}};
+constexpr std::pair<const char*, std::uint32_t> peers[] = {{"Bullet", 0x8c8f96}, {"FCL", 0x7d8a5c}, {"libccd GJK", 0x9a7358}, {"libccd MPR", 0x5f8296}, {"ODE", 0x8f6c92}, {"Box2D", 0xa39a4a}};
 
 /// A colour a method, whatever the scalar; other libraries in quieter ones.
 Colour colour_of(const std::string& method, const Palette& p) {
