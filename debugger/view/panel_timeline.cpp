@@ -106,6 +106,37 @@ void time_axis(App& app) {
 
 }  // namespace
 
+/// The events of an iteration side by side.
+struct Band {
+  float x0;
+  int phase, iteration;
+};
+
+/// Numbers above the bands: of every band, or where they have no room of every second, fifth, tenth… iteration.
+void number_bands(const Theme& theme, const std::vector<Band>& bands, ImVec2 at, float end) {
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const auto label = [](const Band& band) { return (band.phase == 0 ? "" : "E") + std::to_string(band.iteration); };
+  const auto reach = [&](const Band& band) { return band.x0 + theme.small->CalcTextSizeA(theme.small->FontSize, 1000, 0, label(band).c_str()).x + theme.px(8); };
+  const auto fits = [&](int stride) {
+    for (std::size_t i = 0, last = bands.size(); i < bands.size(); ++i) {
+      if (bands[i].iteration % stride != 0) continue;
+      if (last < i && bands[last].phase == bands[i].phase && bands[last].iteration < bands[i].iteration && reach(bands[last]) > bands[i].x0 + theme.px(3)) return false;
+      last = i;
+    }
+    return true;
+  };
+  int stride = 1;
+  for (int decade = 1; !fits(stride) && decade <= 100000; decade *= 10)
+    for (const int step : {2 * decade, 5 * decade, 10 * decade})
+      if (!fits(stride)) stride = step;
+  float free_from = at.x;
+  for (const Band& band : bands) {
+    if (band.iteration % stride != 0 || band.x0 + theme.px(3) < free_from || reach(band) - theme.px(4) > end) continue;
+    draw->AddText(theme.small, theme.small->FontSize * 0.85f, {band.x0 + theme.px(4), at.y + theme.px(2)}, packed(theme.palette.text_faint), label(band).c_str());
+    free_from = reach(band);
+  }
+}
+
 /// Iterations as bands, events as ticks; the pointer seeks.
 void scrubber(App& app) {
   Session& s = app.session;
@@ -118,8 +149,7 @@ void scrubber(App& app) {
   if (ImGui::IsItemActive()) s.playing = false, s.go_to(static_cast<std::size_t>(std::clamp((ImGui::GetIO().MousePos.x - at.x) / cell, 0.f, count - 1)));
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddRectFilled(at, {at.x + size.x, at.y + size.y}, packed(p.field), theme.px(4));
-  int band = 0;
-  float label_end = at.x;
+  std::vector<Band> bands;
   for (std::size_t i = 0; i < s.count();) {
     std::size_t end = i + 1;
     const int phase = phase_of(s.recording().events[i]);
@@ -128,19 +158,11 @@ void scrubber(App& app) {
     for (; end < s.count() && belongs(s.recording().events[end]); ++end)
       if (iteration < 0) iteration = iteration_of(s.recording().events[end]);
     const float x0 = at.x + static_cast<float>(i) * cell, x1 = at.x + static_cast<float>(end) * cell;
-    if (band++ % 2 == 1 && x1 - x0 >= 1) draw->AddRectFilled({x0, at.y}, {x1, at.y + size.y}, packed(p.hover.with_alpha(0.6)));
-    if (x1 - x0 < theme.px(8)) {
-      i = end;
-      continue;
-    }
-    const std::string label = (phase == 0 ? "" : "E") + std::to_string(std::max(0, iteration));
-    const float width = theme.small->CalcTextSizeA(theme.small->FontSize, 1000, 0, label.c_str()).x;
-    if (x0 + theme.px(3) >= label_end && x1 - x0 > width + theme.px(4)) {
-      draw->AddText(theme.small, theme.small->FontSize * 0.85f, {x0 + theme.px(4), at.y + theme.px(2)}, packed(p.text_faint), label.c_str());
-      label_end = x0 + width + theme.px(8);
-    }
+    if (bands.size() % 2 == 1 && x1 - x0 >= 1) draw->AddRectFilled({x0, at.y}, {x1, at.y + size.y}, packed(p.hover.with_alpha(0.6)));
+    bands.push_back({x0, phase, std::max(0, iteration)});
     i = end;
   }
+  number_bands(theme, bands, at, at.x + size.x);
   const std::size_t stride = std::max<std::size_t>(1, static_cast<std::size_t>(2 / std::max(cell, 1e-6f)));
   const float tick = std::clamp(cell * 0.4f, 1.f, theme.px(5));
   for (std::size_t i = 0; i < s.count(); i += stride) {
