@@ -157,15 +157,13 @@ class PolygonSat {
       const auto [a, b] = of_a_ ? std::pair(start.on_edge, start.other) : std::pair(pair_.to_a(start.other), pair_.to_a(start.on_edge));
       return NearestPoints<2, S>{a, b, result_.normal, -result_.depth, -result_.depth - floor_};
     }
-    int corner = corner_, end = start.end;
-    V point = start.on_edge;
+    int at_a = of_a_ ? start.end : corner_, at_b = of_a_ ? corner_ : start.end;  // where to look from
+    V a = of_a_ ? start.on_edge : pair_.a.nearest(pair_.to_a(start.on_edge), at_a);
     for (int round = 8; round > 0; --round) {
-      const V other = to_face(opposite().nearest(to_opposite(point), corner));
-      const V before = std::exchange(point, face().nearest(other, end));
+      const V b = pair_.to_a(pair_.b.nearest(pair_.to_b(a), at_b)), before = std::exchange(a, pair_.a.nearest(b, at_a));
       ++result_.iterations;
-      const auto [a, b] = of_a_ ? std::pair(point, other) : std::pair(pair_.to_a(other), pair_.to_a(point));
       if constexpr (traced<Trace>) trace_projection(a, b);
-      if (near(point, before)) return proven_gap(a, b);
+      if (near(a, before)) return proven_gap(a, b);
     }
     return std::nullopt;
   }

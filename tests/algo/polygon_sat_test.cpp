@@ -210,6 +210,32 @@ TEST(PolygonSat, NeedlesTipToTipAreApart) {
         }
 }
 
+/// In single precision a sliver's edges all face the same way, and the one that is looked across may be far from the nearest: it takes several rounds. In each
+/// a is the point of A nearest to b, whichever body the edge is of.
+TEST(PolygonSat, ProjectsOnASliverRoundByRound) {
+  PointSet pentagon{PointSetKind::hull, {}, {}}, sliver{PointSetKind::hull, {}, {}};
+  for (int i = 0; i < 5; ++i) pentagon.points.push_back(Eigen::Vector2d(std::cos(0.4 * std::numbers::pi * i), std::sin(0.4 * std::numbers::pi * i)));
+  for (int i = 0; i < 7; ++i) sliver.points.push_back(Eigen::Vector2d(std::cos(2 * std::numbers::pi * i / 7), 6e-12 * std::sin(2 * std::numbers::pi * i / 7)));
+  for (const bool swapped : {false, true}) {
+    Scene scene;
+    scene.dimension = 2, scene.query = Query::penetration;
+    scene.bodies = {Body{"A", {pentagon, 0}, identity_pose(2)}, Body{"B", {sliver, 0}, identity_pose(2)}};
+    scene.bodies[0].pose.position = Eigen::Vector2d(-1, 1);
+    if (swapped) std::swap(scene.bodies[0], scene.bodies[1]);
+    Recorder recorder;
+    const Result r = solve(scene, sat(scene, Scalar::float_precision), recorder);
+    EXPECT_NEAR(*r.signed_distance, 1 - std::sin(0.4 * std::numbers::pi), 1e-6);
+    int rounds = 0;
+    for (const auto& event : recorder.take_all())
+      if (const auto* e = std::get_if<recorded::PointsProjected>(&event)) {
+        const AnyVector n = -e->closest.normalized();
+        EXPECT_NEAR(n.dot(e->a), n.dot(WorldSupport(scene.bodies[0], 2)(n, true)), 1e-6);
+        ++rounds;
+      }
+    EXPECT_GE(rounds, 2);
+  }
+}
+
 /// Corner to corner and corner to another edge: no axis tells the distance, projections do.
 TEST(PolygonSat, ProjectsPointsWhereNoAxisTellsTheDistance) {
   std::mt19937 random(3);
