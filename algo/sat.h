@@ -46,7 +46,7 @@ class Sat {
  public:
   /// Features in each body's axes; `rotation` takes body 1's to body 0's.
   Sat(Difference& difference, const Features& a, const Features& b, const Matrix<D, S>& rotation, Trace& trace)
-      : difference_(difference), trace_(trace), floor_(difference.rounding_floor()) {
+      : difference_(difference), trace_(trace), floor_(difference.rounding_floor()), nearly_flat_(a.nearly_flat || b.nearly_flat) {
     for (const AnyVector& n : a.face_normals) faces_a_.push_back(local(n));
     for (const AnyVector& n : b.face_normals) faces_b_.push_back(-(rotation * local(n)));
     if constexpr (D == 3) {
@@ -56,9 +56,10 @@ class Sat {
     }
   }
 
-  /// Whether the faces and edges span the space, as the theorem needs.
+  /// Whether the faces and edges are known and span the space, as the theorem needs.
   bool spans() const {
     if constexpr (D == 1) return true;
+    if (nearly_flat_) return false;
     if constexpr (D == 2) return not_parallel();
     if (has_solid(edges_a_) || has_solid(edges_b_)) return true;
     // No solid: the difference has volume iff three of the edges do.
@@ -165,6 +166,7 @@ class Sat {
   Difference& difference_;
   Trace& trace_;
   const S floor_;
+  const bool nearly_flat_;
   S enough_ = 0;
   std::vector<V> faces_a_, faces_b_;
   std::vector<Edge3> edges_a_, edges_b_;

@@ -232,7 +232,7 @@ class PairSolver {
     Sat<Difference, Trace> sat(difference_, features_a_->get(), features_b_->get(), difference_.rotation(), trace_);
     if (!sat.spans()) {
       if constexpr (traced<Trace>)
-        trace_(Warning<V, Viewed>{"flat-difference", "The difference of the bodies has no volume: faces and edges alone do not decide. GJK does."});
+        trace_(Warning<V, Viewed>{"flat-difference", "The difference of the bodies has no volume, or a body next to none: faces and edges alone do not decide. GJK does."});
       return false;
     }
     const bool yes_or_no = query == Query::intersect;

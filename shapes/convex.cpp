@@ -73,13 +73,12 @@ void Convex<D, S>::set(const Geometry& g, double scale) {
     polytope_ = false;
   } else if constexpr (std::is_same_v<Geometry, PointSet>) {
     const bool reduce = g.kind == PointSetKind::hull || g.kind == PointSetKind::polygon;
-    std::vector<Vector<D, double>> points;
-    if (!reduce && (D != 2 || g.points.size() < 3)) {
-      points.assign(g.points.begin(), g.points.end());
-      return set_vertices(std::move(points), scale);
-    }
+    std::vector<Vector<D, double>> points(g.points.begin(), g.points.end());
+    if (!reduce && (D != 2 || points.size() < 3)) return set_vertices(std::move(points), scale);
     const ConvexHull hull = convex_hull(g.points, D);
-    const bool polygon = D == 2 && hull.rank == 2 && hull.faces.front().size() >= 3;
+    if (hull.rank < D) return set_vertices(std::move(points), scale);  // flat to 1e-14 of the size, which is more than is rounded off elsewhere
+    points.clear();
+    const bool polygon = D == 2 && hull.faces.front().size() >= 3;
     std::vector<int> corners = polygon ? hull.faces.front() : hull.vertices;
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());  // as given, where they are given in this order
     for (const int i : corners) points.push_back(g.points[i]);

@@ -39,7 +39,7 @@ class Convex {
   using Core = typename CoreVariant<D, S>::type;
 
   /// `shape` must be valid in dimension D (`validate`) and no mesh. Lengths are multiplied by `scale`, which
-  /// must be a power of two. A hull is reduced to its extreme vertices.
+  /// must be a power of two. A hull is reduced to its extreme vertices, if it is solid.
   explicit Convex(const Shape& shape, double scale = 1);
 
   /// A point of the core farthest along `direction`; both relative to `reference()`, axes of the body.

@@ -61,6 +61,18 @@ Features features_2d(const std::vector<AnyVector>& points, const ConvexHull& hul
   return features;
 }
 
+/// How far points lie beside the plane, or line, that they are taken to lie in.
+double beside(const std::vector<AnyVector>& points, const ConvexHull& hull) {
+  const AnyVector from = points[static_cast<std::size_t>(hull.vertices.front())], to = points[static_cast<std::size_t>(hull.vertices.back())];
+  const AnyVector along = hull.rank == 2 ? polygon_normal(points, hull.faces.front()) : AnyVector((to - from).stableNormalized());
+  double most = 0;
+  for (const AnyVector& p : points) {
+    const AnyVector way = p - from, part = along * along.dot(way);
+    most = std::max(most, hull.rank == 2 ? part.norm() : AnyVector(way - part).norm());
+  }
+  return most;
+}
+
 }  // namespace
 
 std::optional<Features> features_of(const Shape& shape, int dimension) {
@@ -68,7 +80,11 @@ std::optional<Features> features_of(const Shape& shape, int dimension) {
   if (!corners) return std::nullopt;
   const ConvexHull hull = convex_hull(corners->points, dimension);
   if (dimension == 1) return Features{{AnyVector::Ones(1), -AnyVector::Ones(1)}, {}};
-  return dimension == 2 ? features_2d(corners->points, hull) : features_3d(corners->points, hull);
+  Features features = dimension == 2 ? features_2d(corners->points, hull) : features_3d(corners->points, hull);
+  double size = 0;
+  for (const AnyVector& p : corners->points) size = std::max(size, (p - corners->points.front()).norm());
+  features.nearly_flat = hull.rank > 0 && hull.rank < dimension && beside(corners->points, hull) > 1e-15 * size;
+  return features;
 }
 
 }  // namespace gjkdbg

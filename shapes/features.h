@@ -17,6 +17,7 @@ struct EdgeFeature {
 struct Features {
   std::vector<AnyVector> face_normals;  ///< unit, outwards
   std::vector<EdgeFeature> edges;       ///< 3D only; those that differ in more than their place
+  bool nearly_flat = false;             ///< taken for flat, but not so to rounding: faces that turn away by less than 1e-14 are missing
 };
 
 /// Nothing for what is not a polytope with a radius around it (corners_of).
