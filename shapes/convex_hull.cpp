@@ -161,7 +161,9 @@ void connect(ConvexHull& hull) {
   }
 }
 
-/// Whether no point sticks out of any face by more than rounding.
+/// Whether no point sticks out of any face by more than rounding: what the hull's users take as exact must not be off by more than they round themselves.
+/// Of grids turned anyhow, which have points in their faces, none sticks out by more than a third of this.
+constexpr double rounding = 5e-16;
 bool covers(const ConvexHull& hull, const std::vector<V3>& points, const std::vector<int>& used, double size) {
   if (hull.faces.size() * used.size() > 10'000'000) return true;  // too large to check in the time it is worth
   for (const auto& face : hull.faces) {
@@ -173,7 +175,7 @@ bool covers(const ConvexHull& hull, const std::vector<V3>& points, const std::ve
     double height = -std::numeric_limits<double>::infinity();
     for (const int i : face) height = std::max(height, normal.dot(points[i] - points[face[0]]));
     for (const int i : used)
-      if (normal.dot(points[i] - points[face[0]]) > height + 1e-14 * size) return false;
+      if (normal.dot(points[i] - points[face[0]]) > height + rounding * size) return false;
   }
   return true;
 }

@@ -208,6 +208,21 @@ TEST(EdgeCases, NearlyFlatHullsKeepTheirCorners) {
       }
 }
 
+/// A corner that hardly sticks out of a face is not dropped, either, where the bounds would miss it.
+TEST(EdgeCases, HullsKeepACornerThatHardlySticksOut) {
+  for (int k = 1; k < 400; ++k) {
+    const double height = 1 + k * 0x1p-52;
+    Scene scene;
+    scene.query = Query::penetration;
+    PointSet roof{PointSetKind::hull, {Eigen::Vector3d(0, 0, height)}, {}};
+    for (int i = 0; i < 8; ++i) roof.points.push_back(Eigen::Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+    scene.bodies = {Body{"A", {roof, 0}, identity_pose(3)}, Body{"B", {PointSet{PointSetKind::point, {Eigen::Vector3d(0, 0, 2)}, {}}, 0}, identity_pose(3)}};
+    const Result r = solve(scene, resolve_settings({}, scene));
+    EXPECT_LE(*r.lower_bound, 2 - height) << k;
+    EXPECT_GE(*r.upper_bound, 2 - height) << k;
+  }
+}
+
 /// SAT needs the corners of a sum, which are as many as pairs of its parts': it once looked for features that nobody had made.
 TEST(EdgeCases, SatRefusesASumOfTooManyCorners) {
   const auto ring = [](int corners) {
