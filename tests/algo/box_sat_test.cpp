@@ -3,11 +3,9 @@
 
 #include <random>
 
-#include "algo/solve.h"
 #include "recordings/recording.h"
-#include "shapes/world_support.h"
-#include "tests/oracle/exact_polytopes.h"
 #include "tests/support/random_scenes.h"
+#include "tests/support/sat_agreement.h"
 
 namespace gjkdbg {
 namespace {
@@ -60,12 +58,6 @@ class BoxPairs {
   std::mt19937 random_{11};
 };
 
-Settings sat(const Scene& scene, Scalar scalar = Scalar::double_precision) {
-  Method method;
-  method.name = MethodName::sat, method.scalar = scalar;
-  return resolve_settings(method, scene);
-}
-
 /// How far a point lies outside a body of the scene, at most.
 double outside(const Body& body, const AnyVector& point) {
   const auto& box = std::get<Box>(body.shape.geometry);
@@ -74,59 +66,15 @@ double outside(const Body& body, const AnyVector& point) {
   return std::max(0.0, beyond.norm() - body.shape.margin);
 }
 
-AnyVector farthest(const Scene& scene, int body, const AnyVector& direction) {
-  return WorldSupport(scene.bodies[static_cast<std::size_t>(body)], scene.dimension)(direction, true);
-}
-
 TEST(BoxSat, AgreesWithExactArithmetic) {
   BoxPairs random;
-  double worst = 0, worst_float = 0;
-  int overlapping = 0, by_gjk = 0;
-  for (int k = 0; k < pairs(); ++k) {
+  SatAgreement agreement{&outside, 1};
+  for (int k = 0; k < pairs() && !testing::Test::HasFailure(); ++k) {
     const int dimension = 2 + k % 2;
-    const Scene scene = random.scene(dimension, k / 2);
     SCOPED_TRACE(std::to_string(dimension) + "D pair " + std::to_string(k));
-    const auto exact = oracle::signed_distance(scene);
-    ASSERT_TRUE(exact);
-    const double size = 8, place = size + scene.bodies[0].pose.position.norm(), sd = exact->signed_distance;
-    const Result r = solve(scene, sat(scene));
-    ASSERT_TRUE(r.signed_distance && r.normal && r.witness_a && r.witness_b && r.lower_bound && r.upper_bound);
-    // Else GJK gave the distance, at its own tolerance, or the witnesses.
-    const bool by_formula = (r.status == "overlapping" || r.status == "separated") && r.support_calls <= r.iterations + 1;
-    const double error = std::abs(*r.signed_distance - sd) / size, tolerance = by_formula ? 1e-14 : 1e-14 + 1e-12 * std::abs(sd) / size;
-    worst = std::max(worst, error);
-    EXPECT_LE(error, tolerance) << *r.signed_distance << " for " << sd;
-    EXPECT_LE(*r.lower_bound, sd + 1e-15 * std::abs(sd));
-    EXPECT_GE(*r.upper_bound, sd - 1e-15 * std::abs(sd));
-    EXPECT_LE(*r.upper_bound - *r.lower_bound, 1e-12 * size);
-    EXPECT_NEAR(r.normal->norm(), 1, 1e-14);
-    EXPECT_LE((*r.witness_b - *r.witness_a - *r.signed_distance * *r.normal).norm(), 1e-14 * place);
-    const double off = by_formula ? 1e-14 * place : 1e-10 * size + 1e-14 * place;
-    EXPECT_LE(outside(scene.bodies[0], *r.witness_a), off);
-    EXPECT_LE(outside(scene.bodies[1], *r.witness_b), off) << r.status << " " << sd << " " << r.support_calls;
-    const AnyVector a = farthest(scene, 0, *r.normal), b = farthest(scene, 1, -*r.normal);
-    EXPECT_NEAR(r.normal->dot(b - a), sd, tolerance * size + 1e-14 * place) << "the normal certifies the distance";
-    overlapping += r.intersecting, by_gjk += !by_formula;
-    for (const Query query : {Query::intersect, Query::distance}) {
-      Scene asked = scene;
-      asked.query = query;
-      const Result least = solve(asked, sat(asked));
-      if (std::abs(sd) > 1e-13 * size) {
-        EXPECT_EQ(least.intersecting, sd <= 0);
-      }
-      if (query == Query::distance) {
-        EXPECT_NEAR(*least.signed_distance, std::max(0.0, sd), tolerance * size);
-      } else {
-        EXPECT_FALSE(least.signed_distance || least.normal || least.lower_bound);
-      }
-    }
-    const Result single = solve(scene, sat(scene, Scalar::float_precision));
-    worst_float = std::max(worst_float, std::abs(*single.signed_distance - sd) / size);
-    if (testing::Test::HasFailure()) break;
+    agreement.judge(random.scene(dimension, k / 2), 8);
   }
-  EXPECT_LE(worst_float, 1e-5);
-  EXPECT_GT(overlapping, pairs() / 10);
-  std::printf("worst error %.2g, in float %.2g of the size; %d of %d overlap, %d need GJK\n", worst, worst_float, overlapping, pairs(), by_gjk);
+  agreement.finish();
 }
 
 /// A corner nearest to a corner, to an edge, to a face, edges that cross, and what lies flat: no pair of boxes that are well apart needs GJK.
@@ -188,8 +136,7 @@ TEST(BoxSat, TracesWhatItComputes) {
       const auto* axis = std::get_if<recorded::AxisTested>(&event);
       if (!axis) continue;
       EXPECT_NEAR(axis->direction.norm(), 1, 1e-14);
-      const AnyVector a = farthest(scene, 0, axis->direction), b = farthest(scene, 1, -axis->direction);
-      EXPECT_NEAR(axis->distance, axis->direction.dot(b - a), 1e-14 * (8 + scene.bodies[0].pose.position.norm())) << k;
+      EXPECT_NEAR(axis->distance, across(scene, axis->direction), 1e-14 * (8 + scene.bodies[0].pose.position.norm())) << k;
     }
   }
 }

@@ -5,12 +5,10 @@
 #include <numbers>
 #include <random>
 
-#include "algo/solve.h"
 #include "recordings/recording.h"
 #include "shapes/convex_hull.h"
-#include "shapes/world_support.h"
-#include "tests/oracle/exact_polytopes.h"
 #include "tests/support/random_scenes.h"
+#include "tests/support/sat_agreement.h"
 
 namespace gjkdbg {
 namespace {
@@ -59,12 +57,6 @@ class PolygonPairs {
   std::mt19937 random_{23};
 };
 
-Settings sat(const Scene& scene, Scalar scalar = Scalar::double_precision) {
-  Method method;
-  method.name = MethodName::sat, method.scalar = scalar;
-  return resolve_settings(method, scene);
-}
-
 std::vector<AnyVector> corners(const Shape& shape) {
   if (const auto* set = std::get_if<PointSet>(&shape.geometry)) return set->points;
   const Box& box = std::get<Box>(shape.geometry);
@@ -92,59 +84,16 @@ double outside(const Body& body, const AnyVector& point) {
   return most;
 }
 
-double across(const Scene& scene, const AnyVector& n) {
-  const AnyVector a = WorldSupport(scene.bodies[0], 2)(n, true), b = WorldSupport(scene.bodies[1], 2)(-n, true);
-  return n.dot(b - a);
-}
-
 TEST(PolygonSat, AgreesWithExactArithmetic) {
   PolygonPairs random;
-  const int pairs = pairs_asked(3000);
-  double worst = 0, worst_float = 0;
-  int overlapping = 0, by_gjk = 0;
-  for (int k = 0; k < pairs; ++k) {
-    const Scene scene = random.scene(k);
+  SatAgreement agreement{&outside, 0};
+  for (int k = 0; k < pairs_asked(3000) && !testing::Test::HasFailure(); ++k) {
     SCOPED_TRACE("pair " + std::to_string(k));
-    const auto exact = oracle::signed_distance(scene);
-    ASSERT_TRUE(exact);
-    const double size = extent(scene), place = size + scene.bodies[0].pose.position.norm(), sd = exact->signed_distance;
-    const Result r = solve(scene, sat(scene));
-    ASSERT_TRUE(r.signed_distance && r.normal && r.witness_a && r.witness_b && r.lower_bound && r.upper_bound);
-    const bool by_edges = (r.status == "overlapping" || r.status == "separated") && r.support_calls <= r.iterations;  // else GJK gave the distance or the witnesses
-    const double error = std::abs(*r.signed_distance - sd) / size, tolerance = by_edges ? 1e-14 : 1e-14 + 1e-12 * std::abs(sd) / size;
-    worst = std::max(worst, error);
-    EXPECT_LE(error, tolerance) << *r.signed_distance << " for " << sd;
-    EXPECT_LE(*r.lower_bound, sd + 1e-15 * std::abs(sd));
-    EXPECT_GE(*r.upper_bound, sd - 1e-15 * std::abs(sd));
-    EXPECT_LE(*r.upper_bound - *r.lower_bound, 1e-12 * size);
-    EXPECT_NEAR(r.normal->norm(), 1, 1e-14);
-    EXPECT_LE((*r.witness_b - *r.witness_a - *r.signed_distance * *r.normal).norm(), 1e-14 * place);
-    const double off = by_edges ? 1e-14 * place : 1e-10 * size + 1e-14 * place;
-    EXPECT_LE(outside(scene.bodies[0], *r.witness_a), off);
-    EXPECT_LE(outside(scene.bodies[1], *r.witness_b), off) << r.status << " " << sd << " " << r.support_calls;
-    EXPECT_NEAR(across(scene, *r.normal), sd, tolerance * size + 1e-14 * place) << "the normal certifies the distance";
-    overlapping += r.intersecting, by_gjk += !by_edges;
-    for (const Query query : {Query::intersect, Query::distance}) {
-      Scene asked = scene;
-      asked.query = query;
-      const Result least = solve(asked, sat(asked));
-      if (std::abs(sd) > 1e-13 * size) {
-        EXPECT_EQ(least.intersecting, sd <= 0);
-      }
-      if (query == Query::distance) {
-        EXPECT_NEAR(*least.signed_distance, std::max(0.0, sd), tolerance * size);
-      } else {
-        EXPECT_FALSE(least.signed_distance || least.normal || least.lower_bound);
-      }
-    }
-    const Result single = solve(scene, sat(scene, Scalar::float_precision));
-    worst_float = std::max(worst_float, std::abs(*single.signed_distance - sd) / size);
-    if (testing::Test::HasFailure()) break;
+    const Scene scene = random.scene(k);
+    agreement.judge(scene, extent(scene));
   }
-  EXPECT_LE(worst_float, 1e-5);
-  EXPECT_GT(overlapping, pairs / 10);
-  EXPECT_LT(by_gjk, pairs / 20);
-  std::printf("worst error %.2g, in float %.2g of the size; %d of %d overlap, %d need GJK\n", worst, worst_float, overlapping, pairs, by_gjk);
+  agreement.finish();
+  EXPECT_LT(agreement.by_gjk, agreement.pairs / 20);
 }
 
 /// The trace looks along one edge after the other, the query four at a time, and on some processors in other instructions: the same numbers.
