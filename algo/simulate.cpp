@@ -64,11 +64,6 @@ class Simulation {
   }
 
  private:
-  V3 in_space(const AnyVector& v) const {
-    V3 p = V3::Zero();
-    p.head(v.size()) = v;
-    return p;
-  }
   AnyVector in_scene(const V3& v) const { return v.head(dimension_); }
 
   RigidBody make(const Body& body) const {

@@ -14,13 +14,6 @@ namespace {
 using V3 = Eigen::Vector3d;
 using M3 = Eigen::Matrix3d;
 
-/// In space, the missing coordinates 0.
-V3 in_space(const AnyVector& v) {
-  V3 p = V3::Zero();
-  p.head(v.size()) = v;
-  return p;
-}
-
 /// A body at a time: its centre of mass and how that moves.
 struct Moving {
   V3 place = V3::Zero(), velocity = V3::Zero(), spin = V3::Zero();

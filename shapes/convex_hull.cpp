@@ -16,12 +16,6 @@ namespace {
 using V3 = Eigen::Vector3d;
 constexpr double flat_limit = 1e-14;  ///< of the size: thinner sets count as flat
 
-V3 in_space(const AnyVector& p) {
-  V3 v = V3::Zero();
-  v.head(p.size()) = p;
-  return v;
-}
-
 /// Ascending indices of the distinct points.
 std::vector<int> distinct(const std::vector<V3>& points) {
   std::vector<int> order(points.size());

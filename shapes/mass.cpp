@@ -11,7 +11,7 @@ namespace {
 
 using Point = Vector<3, double>;
 using Tensor = Matrix<3, double>;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Volume, first and second moments: integrals of 1, x and x x^T.
 struct Moments {
@@ -41,12 +41,6 @@ struct Moments {
     return m;
   }
 };
-
-Point in_space(const AnyVector& v) {
-  Point p = Point::Zero();
-  p.head(v.size()) = v;
-  return p;
-}
 
 /// Solids by tetrahedra from one point, flat sets by triangles, rods by their segment.
 MassProperties of_points(const std::vector<AnyVector>& points, int dimension) {

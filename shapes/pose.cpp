@@ -11,7 +11,7 @@ namespace {
 
 using M3 = Eigen::Matrix3d;
 using V3 = Eigen::Vector3d;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 [[noreturn]] void not_a_rotation(const std::string& message, const char* where) { throw Error("not-a-rotation", message, where); }
 

@@ -22,4 +22,11 @@ using AnyVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 3, 1>;
 /// A square matrix of a dimension known at run time (1, 2 or 3 rows).
 using AnyMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3>;
 
+/// The point in space with these coordinates, those it lacks 0.
+inline Vector<3, double> in_space(const AnyVector& p) {
+  Vector<3, double> out = Vector<3, double>::Zero();
+  out.head(p.size()) = p;
+  return out;
+}
+
 }  // namespace gjkdbg

@@ -17,7 +17,7 @@
 namespace gjkdbg {
 namespace {
 
-std::string number(double x) {
+std::string three_digits(double x) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", x);
   return text;
@@ -132,7 +132,7 @@ std::string sentence(const AtlasFamily& family, const Variant& variant, const At
   const bool cast = cell.scene.query == Query::cast, missed = cast ? std::isfinite(cell.exact) : cell.exact <= 0;
   if (cell.verdict == Verdict::wrong_class && missed) verdict = "mistakes overlapping for apart";
   if (cell.verdict == Verdict::lied && cast) verdict = "stops too late";
-  return variant.name + " " + verdict + " (" + number(cell.value) + " for " + number(cell.exact) + "): " + cause(variant, cell.verdict) + ". Here: " + family.what + ".";
+  return variant.name + " " + verdict + " (" + three_digits(cell.value) + " for " + three_digits(cell.exact) + "): " + cause(variant, cell.verdict) + ". Here: " + family.what + ".";
 }
 
 /// The simplest scene that still fails like this: every number of the poses and points rounded to as few digits as do, body 0 brought to the origin.
@@ -213,7 +213,7 @@ std::string atlas_csv(const Atlas& atlas) {
   for (std::size_t f = 0; f < atlas.families.size(); ++f)
     for (std::size_t m = 0; m < atlas.methods.size(); ++m) {
       const AtlasCell& cell = atlas.cells[f][m];
-      out += atlas.families[f].name + ",\"" + atlas.methods[m].name + "\"," + verdict_names[static_cast<std::size_t>(cell.verdict)] + "," + number(cell.worst_error) + "," + number(cell.parameter) + "\n";
+      out += atlas.families[f].name + ",\"" + atlas.methods[m].name + "\"," + verdict_names[static_cast<std::size_t>(cell.verdict)] + "," + three_digits(cell.worst_error) + "," + three_digits(cell.parameter) + "\n";
     }
   return out;
 }

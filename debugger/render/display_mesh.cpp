@@ -11,11 +11,7 @@
 
 namespace gjkdbg {
 
-ViewPoint to_view(const AnyVector& v) {
-  ViewPoint p = ViewPoint::Zero();
-  p.head(v.size()) = v;
-  return p;
-}
+ViewPoint to_view(const AnyVector& v) { return in_space(v); }
 
 namespace {
 

@@ -33,7 +33,7 @@ void draw_mark(const Theme& theme, const std::string& method, ImVec2 at, Colour 
   else draw->AddCircleFilled(at, r, packed(colour), 12);
 }
 
-std::string short_number(double x, const char* format = "%.2g") {
+std::string formatted(double x, const char* format = "%.2g") {
   char text[32];
   std::snprintf(text, sizeof text, format, x);
   return text;
@@ -90,7 +90,7 @@ class FamilyPlot {
     for (double t = low_; t <= high_; ++t) {
       const float y = y_of(std::pow(10, t));
       list->AddLine({from_.x, y}, {to_.x, y}, packed(p.field), 1);
-      const std::string label = t < 3 ? short_number(std::pow(10, t), "%.0f ns") : t < 6 ? short_number(std::pow(10, t - 3), "%.0f \xC2\xB5s") : short_number(std::pow(10, t - 6), "%.0f ms");
+      const std::string label = t < 3 ? formatted(std::pow(10, t), "%.0f ns") : t < 6 ? formatted(std::pow(10, t - 3), "%.0f \xC2\xB5s") : formatted(std::pow(10, t - 6), "%.0f ms");
       small_text(theme_, {from_.x - small_width(theme_, label) - theme_.px(4), y - theme_.px(7)}, p.text_faint, label);
     }
     for (std::size_t i = 0; i + 1 < family_.dots.size(); ++i)
@@ -235,7 +235,7 @@ void atlas_area(App& app, ImVec2 at, ImVec2 size) {
       const MeasuredCell& cell = atlas.families[f].cells[m];
       const ImVec2 low{at.x + label + width * static_cast<float>(f), y}, high{low.x + width - gap, y + height - gap};
       list->AddRectFilled(low, high, packed(verdict_colour(cell.verdict, p)), theme.px(3));
-      const std::string text = cell.verdict == 7 ? "\xC3\x97" : cell.verdict == 8 || cell.worst_error == 0 ? "" : short_number(cell.worst_error, "%.0e");
+      const std::string text = cell.verdict == 7 ? "\xC3\x97" : cell.verdict == 8 || cell.worst_error == 0 ? "" : formatted(cell.worst_error, "%.0e");
       const bool dark_text = cell.verdict >= 1 && cell.verdict <= 4;
       if (small_width(theme, text) + theme.px(4) < width) small_text(theme, {(low.x + high.x - small_width(theme, text)) / 2, (low.y + high.y) / 2 - theme.px(7)}, rgb(dark_text ? 0x141414 : 0xffffff), text);
       if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(low, high)) {

@@ -257,7 +257,7 @@ bool add_body(SceneFile& next) {
 }
 
 /// Another run beside this one: the same scene by another method, or a recording.
-void comparison(App& app) {
+void compare_with(App& app) {
   const Theme& theme = app.theme;
   Session& s = app.session;
   section(theme, "COMPARE WITH");
@@ -352,7 +352,7 @@ void scene_panel(App& app) {
   // A drag in a field is one edit, from press to release.
   if (!was_active && ImGui::IsAnyItemActive()) app.session.begin_edit();
   if (!ImGui::IsAnyItemActive()) app.session.end_edit();
-  comparison(app);
+  compare_with(app);
   stop_when(app);
   section(theme, "SHOW");
   Preferences& p = app.preferences;

@@ -142,7 +142,7 @@ void counters(App& app) {
 }
 
 /// The run beside this one, at the same step.
-void comparison(App& app) {
+void run_beside(App& app) {
   Session& s = app.session;
   if (!s.comparing()) return;
   const Theme& theme = app.theme;
@@ -294,7 +294,7 @@ void step_panel(App& app, const Area& area) {
   heading(app);
   right_implementation(app);
   findings(app);
-  comparison(app);
+  run_beside(app);
   weights(app);
   regions(app);
   faces(app);

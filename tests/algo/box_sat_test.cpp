@@ -10,8 +10,6 @@
 namespace gjkdbg {
 namespace {
 
-int pairs() { return pairs_asked(5000); }
-
 class BoxPairs {
  public:
   /// k chooses: whole numbers or not, how nearly parallel, flat or long, a side of no length, margins, a far place, a centre of its own.
@@ -59,7 +57,7 @@ class BoxPairs {
 };
 
 /// How far a point lies outside a body of the scene, at most.
-double outside(const Body& body, const AnyVector& point) {
+double outside_box(const Body& body, const AnyVector& point) {
   const auto& box = std::get<Box>(body.shape.geometry);
   const AnyVector local = body.pose.matrix.transpose() * (point - body.pose.position);
   const AnyVector beyond = (local - box.max).cwiseMax(box.min - local).cwiseMax(0);
@@ -68,8 +66,8 @@ double outside(const Body& body, const AnyVector& point) {
 
 TEST(BoxSat, AgreesWithExactArithmetic) {
   BoxPairs random;
-  SatAgreement agreement{&outside, 1};
-  for (int k = 0; k < pairs() && !testing::Test::HasFailure(); ++k) {
+  SatAgreement agreement{&outside_box, 1};
+  for (int k = 0; k < pairs_asked(5000) && !testing::Test::HasFailure(); ++k) {
     const int dimension = 2 + k % 2;
     SCOPED_TRACE(std::to_string(dimension) + "D pair " + std::to_string(k));
     agreement.judge(random.scene(dimension, k / 2), 8);
@@ -109,7 +107,7 @@ TEST(BoxSat, ProjectsPointsWhereNoAxisTellsTheDistance) {
         EXPECT_LE(e->upper_bound, upper + 1e-15) << "a projection never leads away";
         EXPECT_LE(lower = e->lower_bound, exact->signed_distance);
         EXPECT_GE(upper = e->upper_bound, exact->signed_distance);
-        EXPECT_LE(outside(scene.bodies[0], e->a) + outside(scene.bodies[1], e->b), 1e-14);
+        EXPECT_LE(outside_box(scene.bodies[0], e->a) + outside_box(scene.bodies[1], e->b), 1e-14);
         ++steps;
       }
     if (steps > 0) {

@@ -71,7 +71,7 @@ double extent(const Scene& scene) {
 }
 
 /// How far a point lies outside the core of a body of the scene, at most, beyond its margin.
-double outside(const Body& body, const AnyVector& point) {
+double outside_polygon(const Body& body, const AnyVector& point) {
   const AnyVector local = body.pose.matrix.transpose() * (point - body.pose.position);
   const std::vector<AnyVector> all = corners(body.shape);
   const auto loop = convex_hull(all, 2).faces.front();
@@ -86,7 +86,7 @@ double outside(const Body& body, const AnyVector& point) {
 
 TEST(PolygonSat, AgreesWithExactArithmetic) {
   PolygonPairs random;
-  SatAgreement agreement{&outside, 0};
+  SatAgreement agreement{&outside_polygon, 0};
   for (int k = 0; k < pairs_asked(3000) && !testing::Test::HasFailure(); ++k) {
     SCOPED_TRACE("pair " + std::to_string(k));
     const Scene scene = random.scene(k);
@@ -174,14 +174,14 @@ TEST(PolygonSat, ProjectsOnASliverRoundByRound) {
     Recorder recorder;
     const Result r = solve(scene, sat(scene, Scalar::float_precision), recorder);
     EXPECT_NEAR(*r.signed_distance, 1 - std::sin(0.4 * std::numbers::pi), 1e-6);
-    int rounds = 0;
+    int answers = 0;
     for (const auto& event : recorder.take_all())
       if (const auto* e = std::get_if<recorded::PointsProjected>(&event)) {
         const AnyVector n = -e->closest.normalized();
         EXPECT_NEAR(n.dot(e->a), n.dot(WorldSupport(scene.bodies[0], 2)(n, true)), 1e-6);
-        ++rounds;
+        ++answers;
       }
-    EXPECT_GE(rounds, 2);
+    EXPECT_GE(answers, 2);
   }
 }
 
@@ -218,7 +218,7 @@ TEST(PolygonSat, ProjectsPointsWhereNoAxisTellsTheDistance) {
         EXPECT_LE(e->upper_bound, upper + 1e-15) << "a projection never leads away";
         EXPECT_LE(lower = e->lower_bound, exact->signed_distance);
         EXPECT_GE(upper = e->upper_bound, exact->signed_distance);
-        EXPECT_LE(std::max(outside(scene.bodies[0], e->a), outside(scene.bodies[1], e->b)), 1e-14);
+        EXPECT_LE(std::max(outside_polygon(scene.bodies[0], e->a), outside_polygon(scene.bodies[1], e->b)), 1e-14);
         ++steps;
       }
     if (steps > 0) {

@@ -16,8 +16,6 @@
 namespace gjkdbg {
 namespace {
 
-int pairs() { return pairs_asked(20000); }
-
 Result answer(Scene scene, Query query, MethodName name = MethodName::gjk) {
   scene.query = query;
   Method method;
@@ -76,7 +74,7 @@ void check_booleans(const Scene& scene, const oracle::Answer& exact) {
 TEST(RandomPairs, PolytopesAgreeWithExactArithmetic) {
   RandomScenes random(1);
   Errors worst;
-  for (int k = 0; k < pairs(); ++k) {
+  for (int k = 0; k < pairs_asked(20000); ++k) {
     const int dimension = k % 10 == 0 ? 1 : k % 10 < 4 ? 2 : 3;
     const auto family = static_cast<Family>(k / 10 % family_count);
     const Scene scene = random.scene(dimension, family, true);
@@ -99,7 +97,7 @@ TEST(RandomPairs, EveryVariantAgreesWithExactArithmetic) {
       if (name == MethodName::gjk && part == ClosestPoint::signed_volumes) continue;
       RandomScenes random(6);
       int stalled = 0;
-      for (int k = 0; k < pairs() / 10; ++k) {
+      for (int k = 0; k < pairs_asked(20000) / 10; ++k) {
         const int dimension = 1 + k % 3;
         const auto family = static_cast<Family>(k / 3 % family_count);
         const Scene scene = random.scene(dimension, family, true);
@@ -114,7 +112,7 @@ TEST(RandomPairs, EveryVariantAgreesWithExactArithmetic) {
         stalled += r.status == "stalled";
         if (testing::Test::HasFailure()) return;
       }
-      EXPECT_LE(stalled, pairs() / 500);
+      EXPECT_LE(stalled, pairs_asked(20000) / 500);
     }
 }
 
@@ -122,7 +120,7 @@ TEST(RandomPairs, EveryVariantAgreesWithExactArithmetic) {
 TEST(RandomPairs, SatAndMprAgreeWithExactArithmetic) {
   RandomScenes random(8);
   int shortest = 0, deep = 0;
-  for (int k = 0; k < pairs() / 4; ++k) {
+  for (int k = 0; k < pairs_asked(20000) / 4; ++k) {
     const int dimension = 1 + k % 3;
     const auto family = static_cast<Family>(k / 3 % family_count);
     const Scene scene = random.scene(dimension, family, true);
@@ -165,7 +163,7 @@ TEST(RandomPairs, SatAndMprAgreeWithExactArithmetic) {
 TEST(RandomPairs, ContactPointsLieOnBothBodies) {
   RandomScenes random(2);
   int found = 0;
-  for (int k = 0; k < pairs() / 10; ++k) {
+  for (int k = 0; k < pairs_asked(20000) / 10; ++k) {
     const int dimension = k % 3 == 0 ? 2 : 3;
     const auto family = static_cast<Family>(k / 3 % 3);
     const Scene scene = random.scene(dimension, family, true);
@@ -186,7 +184,7 @@ TEST(RandomPairs, ContactPointsLieOnBothBodies) {
     }
     if (testing::Test::HasFailure()) break;
   }
-  EXPECT_GT(found, pairs() / 100);
+  EXPECT_GT(found, pairs_asked(20000) / 100);
 }
 
 /// Support planes of A - B: no depth may exceed any of them, and the gap must reach every one.
@@ -235,7 +233,7 @@ double best_refutation(const Scene& scene, const Result& r, RandomScenes& random
 TEST(RandomPairs, NoPlaneRefutesACurvedAnswer) {
   RandomScenes random(3);
   int limits = 0;
-  for (int k = 0; k < pairs() / 4; ++k) {
+  for (int k = 0; k < pairs_asked(20000) / 4; ++k) {
     const int dimension = k % 4 == 0 ? 2 : 3;
     const auto family = static_cast<Family>(k / 4 % (family_count - 1));
     const Scene scene = random.scene(dimension, family, false);
@@ -263,14 +261,14 @@ TEST(RandomPairs, NoPlaneRefutesACurvedAnswer) {
     }
     if (testing::Test::HasFailure()) break;
   }
-  EXPECT_LE(limits, pairs() / 400);
+  EXPECT_LE(limits, pairs_asked(20000) / 400);
 }
 
 /// Every plane is a true bound whatever direction it is across: the certificates agree. And of two ellipsoids Newton's directions take half the steps.
 TEST(RandomPairs, NewtonsDirectionsAnswerAsThePlainOnes) {
   RandomScenes random(14);
   int plain_steps = 0, newton_steps = 0, stalled = 0;
-  for (int k = 0; k < pairs() / 4; ++k) {
+  for (int k = 0; k < pairs_asked(20000) / 4; ++k) {
     const int dimension = k % 4 == 0 ? 2 : 3;
     const Scene scene = random.scene(dimension, static_cast<Family>(k / 4 % family_count), false);
     Method method;
@@ -294,7 +292,7 @@ TEST(RandomPairs, NewtonsDirectionsAnswerAsThePlainOnes) {
     if (*plain.signed_distance > 0 && ellipsoid(scene.bodies[0]) && ellipsoid(scene.bodies[1])) plain_steps += plain.iterations, newton_steps += newton.iterations;
     if (testing::Test::HasFailure()) break;
   }
-  EXPECT_LE(stalled, pairs() / 500);
+  EXPECT_LE(stalled, pairs_asked(20000) / 500);
   EXPECT_LT(newton_steps, plain_steps / 2);
   std::printf("two ellipsoids: %d steps, plain %d\n", newton_steps, plain_steps);
 }
@@ -303,7 +301,7 @@ TEST(RandomPairs, NewtonsDirectionsAnswerAsThePlainOnes) {
 TEST(RandomPairs, NearlyTouchedEdgesDoNotStall) {
   RandomScenes random(15);
   const auto vector = [&] { return AnyVector(Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1))); };
-  for (int k = 0; k < pairs() / 10; ++k) {
+  for (int k = 0; k < pairs_asked(20000) / 10; ++k) {
     Scene scene;
     scene.dimension = 3;
     scene.query = Query::penetration;
@@ -325,7 +323,7 @@ TEST(RandomPairs, NearlyTouchedEdgesDoNotStall) {
 TEST(RandomPairs, CurvedDistancesAgreeWithFiftyDigits) {
   RandomScenes random(4);
   int compared = 0;
-  for (int k = 0; k < pairs() / 20; ++k) {
+  for (int k = 0; k < pairs_asked(20000) / 20; ++k) {
     const int dimension = k % 4 == 0 ? 2 : 3;
     const Scene scene = random.scene(dimension, k % 2 == 0 ? Family::general : Family::lattice, false);
     const Result r = answer(scene, Query::penetration);
@@ -337,7 +335,7 @@ TEST(RandomPairs, CurvedDistancesAgreeWithFiftyDigits) {
     ++compared;
     if (testing::Test::HasFailure()) break;
   }
-  EXPECT_GT(compared, pairs() / 100);
+  EXPECT_GT(compared, pairs_asked(20000) / 100);
 }
 
 }  // namespace
