@@ -41,7 +41,7 @@ def compiled(compiler, libraries, tree, folder, name, *more):
     """Only the driver is compiled: all that is measured is templates in headers."""
     program = folder / name
     flags = ["-std=c++20", "-O2", "-DNDEBUG", "-ffp-contract=off", "-w", f"-I{tree}", f"-I{ROOT}", "-isystem", "/usr/include/eigen3", *more]
-    subprocess.run([compiler, *flags, str(ROOT / "tests/trace_cost/driver.cpp"), *libraries, "-lqhull_r", "-ltinyobjloader", "-o", str(program)], check=True)
+    subprocess.run([compiler, *flags, str(ROOT / "tests/trace_cost/driver.cpp"), *libraries, "-lqhull_r", "-ltinyobjloader", "-lgmpxx", "-lgmp", "-o", str(program)], check=True)
     return program
 
 
