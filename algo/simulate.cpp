@@ -41,7 +41,9 @@ struct Contact {
   V3 point, normal;
   double depth;
   double restitution, friction;
+  double fall_left;         ///< of the speed of approach: what gravity adds in this step after a bounce
   V3 impulse = V3::Zero();  ///< on the second body, in this step
+  double leaves = 0;        ///< how far the bodies move apart along the normal in this step
   std::array<V3, 2> before;
 };
 
@@ -126,7 +128,19 @@ class Simulation {
   /// something has had its fall taken from it and keeps its place.
   void lift() {
     for (std::size_t i = 0; i < bodies_.size(); ++i)
-      if (movable(bodies_[i]) && !touched_[i]) bodies_[i].x -= gravity_ * (h_ * h_ / 2);
+      if (movable(bodies_[i]) && !resting_[i]) bodies_[i].x -= gravity_ * (h_ * h_ / 2);
+  }
+
+  /// The share of a step's fall that comes after a bounce. Runge and Kutta's parabolas bounce at the step's beginning. A semi-implicit fall from
+  /// rest is h |v| / 2 lower than a true one, and so is what rises: turned back before the fall a body loses m g h |v| in a bounce, turned back
+  /// after it, it gains as much, and in the middle neither. The explicit method falls when all is done.
+  double left_to_fall() const {
+    switch (scene_.motion->integrator) {
+      case Integrator::explicit_euler: return 0;
+      case Integrator::semi_implicit_euler: return 0.5;
+      case Integrator::rk4: return 1;
+    }
+    return 0;
   }
 
   void move() {
@@ -194,7 +208,7 @@ class Simulation {
 
   void find_contacts() {
     contacts_.clear();
-    touched_.assign(bodies_.size(), false);
+    resting_.assign(bodies_.size(), false);
     for (std::size_t i = 0; i < bodies_.size(); ++i)
       for (std::size_t j = i + 1; j < bodies_.size(); ++j) {
         if (!movable(bodies_[i]) && !movable(bodies_[j])) continue;
@@ -220,9 +234,10 @@ class Simulation {
     supports_ += r.support_calls, iterations_ += r.iterations;
     if (!r.intersecting || !r.normal || !r.contacts) return;
     const Motion &a = *scene_.bodies[i].motion, &b = *scene_.bodies[j].motion;
+    const double falls = (movable(bodies_[i]) ? 1 : 0) - (movable(bodies_[j]) ? 1 : 0), fall_left = falls * left_to_fall() * h_ * gravity_.dot(in_space(*r.normal));
     for (const ContactPoint& c : *r.contacts) {
       Contact contact{static_cast<int>(i), static_cast<int>(j), in_space(AnyVector((c.point_a + c.point_b) / 2)), in_space(*r.normal), c.depth,
-                      std::max(a.restitution, b.restitution), std::sqrt(a.friction * b.friction), V3::Zero(), {bodies_[i].v, bodies_[j].v}};
+                      std::max(a.restitution, b.restitution), std::sqrt(a.friction * b.friction), fall_left, V3::Zero(), 0, {bodies_[i].v, bodies_[j].v}};
       contacts_.push_back(contact);
       if (trace_)
         (*trace_)(world::ContactFound{time_, {contact.first, contact.second}, in_scene(contact.point), in_scene(contact.normal), contact.depth});
@@ -261,8 +276,8 @@ class Simulation {
       for (Contact& c : contacts_) approached |= push(c, 1e-12 * speed);
       if (!approached) break;
     }
-    for (const Contact& c : contacts_) {
-      touched_[static_cast<std::size_t>(c.first)] = touched_[static_cast<std::size_t>(c.second)] = true;
+    for (Contact& c : contacts_) {
+      c.leaves = std::max(0.0, relative_velocity(c).dot(c.normal)) * h_;
       if (!trace_ || c.impulse.isZero(0)) continue;
       const std::vector<AnyVector> before{in_scene(c.before[0]), in_scene(c.before[1])};
       const std::vector<AnyVector> after{in_scene(bodies_[static_cast<std::size_t>(c.first)].v), in_scene(bodies_[static_cast<std::size_t>(c.second)].v)};
@@ -270,14 +285,16 @@ class Simulation {
     }
   }
 
-  /// True when the contact approached. An impulse along the normal with restitution never adds energy; friction takes some.
+  /// True when the contact approached. The bounce turns back what was there before the rest of the fall: with u the speed of approach and r that
+  /// rest, u - r becomes -e (u - r), by an impulse of (1 + e) (u - r). Where that leaves them approaching there is none. Friction takes energy.
   bool push(Contact& c, double least) {
     const V3 u = relative_velocity(c);
     const double approach = -u.dot(c.normal);
     if (!(approach > least)) return false;
     const bool resting = approach <= 2 * gravity_.norm() * h_;
-    const double j = (1 + (resting ? 0 : c.restitution)) * approach / c.normal.dot(change_by(c, c.normal));
-    apply(c, j * c.normal);
+    const double bounced = resting ? 0 : (1 + c.restitution) * (approach - c.fall_left);
+    if (bounced <= approach) resting_[static_cast<std::size_t>(c.first)] = resting_[static_cast<std::size_t>(c.second)] = true;
+    apply(c, std::max(approach, bounced) / c.normal.dot(change_by(c, c.normal)) * c.normal);
     if (!(c.friction > 0)) return true;
     const V3 along = relative_velocity(c), slip = along - c.normal * c.normal.dot(along);
     if (!(slip.norm() > 1e-14)) return true;
@@ -289,11 +306,11 @@ class Simulation {
     return true;
   }
 
-  /// Places alone: no velocity, hence no kinetic energy.
+  /// Places alone: no velocity, hence no kinetic energy; and no more than is left once the bodies have moved, or every bounce would lift them.
   void push_apart() {
     for (const Contact& c : contacts_) {
       RigidBody &a = bodies_[static_cast<std::size_t>(c.first)], &b = bodies_[static_cast<std::size_t>(c.second)];
-      const double slop = left_over * std::min(a.reach, b.reach), extra = c.depth - slop;
+      const double slop = left_over * std::min(a.reach, b.reach), extra = c.depth - c.leaves - slop;
       const double weight = a.inverse_mass + b.inverse_mass;
       if (!(extra > 0) || !(weight > 0)) continue;
       const auto points = static_cast<double>(std::count_if(contacts_.begin(), contacts_.end(), [&](const Contact& o) { return o.first == c.first && o.second == c.second; }));
@@ -362,7 +379,7 @@ class Simulation {
   std::vector<std::vector<Shape>> parts_;
   std::map<std::pair<const Shape*, const Shape*>, std::vector<SimplexPoint>> simplices_;  ///< of Start::previous
   std::vector<Contact> contacts_;
-  std::vector<bool> touched_;
+  std::vector<bool> resting_;  ///< on something, in this step
   TraceNumbers numbers_;
   double time_ = 0;
   int iterations_ = 0, supports_ = 0;

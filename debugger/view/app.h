@@ -114,6 +114,8 @@ void view_panels(App& app, const Area& area, bool interactive);
 /// A borderless child window over an area; call ImGui::EndChild after it.
 bool begin_area(const char* name, const Area& area, bool scrolls = false);
 void section(const Theme& theme, const char* title);
+/// A line of text, or as much of it as fits into `room`, and three dots.
+std::string shortened(const ImFont* font, const std::string& text, float room);
 /// Broken between words only: never within a number.
 void wrapped(const std::string& text, Colour colour);
 /// A label on the left and a number in the monospaced font, right-aligned, below where there is no room beside. With a source, the step that produced the number, a click goes there.

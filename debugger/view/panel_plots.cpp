@@ -155,7 +155,10 @@ void motion_plot(App& app, float width, float height) {
   if (points.empty()) return;
   double low = cast ? 0 : points[0].value, high = points[0].value, first = cast ? 0 : points[0].time, last = cast ? 1 : points[0].time;
   for (const Point& x : points) low = std::min(low, x.value), high = std::max(high, x.value), last = std::max(last, x.time);
-  if (!(high > low)) high = low + std::max(1e-12, std::abs(low) * 1e-3);
+  if (const double middle = (low + high) / 2; !(high - low > 1e-6 * std::abs(middle))) {  // what stays is a line, not its rounding drawn large
+    const double beside = std::max(1e-12, std::abs(middle) * 1e-3);
+    low = middle - beside, high = middle + beside;
+  }
   const ImVec2 from{at.x + theme.px(64), at.y + theme.px(28)}, to{at.x + width - theme.px(14), at.y + height - theme.px(22)};
   const auto place = [&](const Point& x) {
     return ImVec2{from.x + static_cast<float>((x.time - first) / std::max(last - first, 1e-300)) * (to.x - from.x), to.y - static_cast<float>((x.value - low) / (high - low)) * (to.y - from.y)};

@@ -50,7 +50,8 @@ void heading(App& app) {
   const char* phase = phase_name(session.recording().events[session.step()], session.frame());
   const std::string iteration = session.frame().parallelogram || std::holds_alternative<recorded::State>(session.recording().events[session.step()]) ? "" : std::string(std::strcmp(phase, "motion") == 0 ? "," : "") + " iteration " + std::to_string(session.frame().iteration);
   const std::string time = session.frame().time ? "  \xC2\xB7  time " + short_number(*session.frame().time) : "";
-  ImGui::TextColored(vec(theme.palette.text_faint), "Step %zu of %zu  \xC2\xB7  %s%s%s", session.step(), session.count() - 1, phase, iteration.c_str(), time.c_str());
+  const std::string where = "Step " + std::to_string(session.step()) + " of " + std::to_string(session.count() - 1) + "  \xC2\xB7  " + phase + iteration + time;
+  ImGui::TextColored(vec(theme.palette.text_faint), "%s", shortened(theme.small, where, ImGui::GetContentRegionAvail().x).c_str());
   if (const std::string triangle = triangle_name(session); !triangle.empty()) ImGui::TextColored(vec(theme.palette.text_faint), "%s, a convex set of its own", triangle.c_str());
   ImGui::PopFont();
   ImGui::PushFont(theme.title);

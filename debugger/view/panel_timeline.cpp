@@ -99,7 +99,7 @@ void time_axis(App& app) {
     const std::string text = "t " + short_number(*time);
     const float width = theme.small->CalcTextSizeA(theme.small->FontSize * 0.85f, 1000, 0, text.c_str()).x;
     draw->AddLine({x, at.y + theme.px(2)}, {x, at.y + size.y + theme.px(4)}, packed(theme.palette.accent), 1);
-    if (x + width + theme.px(4) < at.x + size.x) draw->AddText(theme.small, theme.small->FontSize * 0.85f, {x + theme.px(3), at.y}, packed(theme.palette.text_faint), text.c_str());
+    if (x + width + theme.px(4) < at.x + size.x) draw->AddText(theme.small, theme.small->FontSize * 0.85f, {x + theme.px(3), at.y + theme.px(1)}, packed(theme.palette.text_faint), text.c_str());
     free = x + width + theme.px(12);
   }
 }
@@ -112,7 +112,8 @@ struct Band {
   int phase, iteration;
 };
 
-/// Numbers above the bands: of every band, or where they have no room of every second, fifth, tenth… iteration.
+/// Numbers above the bands: of every band, or where they have no room of every second, fifth, tenth… iteration. Then a run's beginning, which has the number 0,
+/// has it only where it is the recording's: in a motion runs begin everywhere.
 void number_bands(const Theme& theme, const std::vector<Band>& bands, ImVec2 at, float end) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const auto label = [](const Band& band) { return (band.phase == 0 ? "" : "E") + std::to_string(band.iteration); };
@@ -131,7 +132,8 @@ void number_bands(const Theme& theme, const std::vector<Band>& bands, ImVec2 at,
       if (!fits(stride)) stride = step;
   float free_from = at.x;
   for (const Band& band : bands) {
-    if (band.iteration % stride != 0 || band.x0 + theme.px(3) < free_from || reach(band) - theme.px(4) > end) continue;
+    const bool begins_again = stride > 1 && band.iteration == 0 && band.x0 > at.x;
+    if (band.iteration % stride != 0 || begins_again || band.x0 + theme.px(3) < free_from || reach(band) - theme.px(4) > end) continue;
     draw->AddText(theme.small, theme.small->FontSize * 0.85f, {band.x0 + theme.px(4), at.y + theme.px(2)}, packed(theme.palette.text_faint), label(band).c_str());
     free_from = reach(band);
   }

@@ -84,13 +84,19 @@ void turn(Body& body, const ViewPoint& axis, double angle, int dimension) {
   body.pose.matrix = resolve(body.pose.rotation, dimension).matrix;
 }
 
+/// Of the two that are looked at their own, of the others none.
+Colour letter_colour(App& app, int body) {
+  const auto& pair = app.session.frame().pair;
+  return body == pair[0] ? app.theme.palette.body_a : body == pair[1] ? app.theme.palette.body_b : app.theme.palette.text_soft;
+}
+
 /// A ring in each body's middle: dragging it moves the body in the picture's plane; the disc beside it turns it.
 void body_handles(App& app, const Projection& projection, ImDrawList* draw, Held& held) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const int dimension = app.session.scene().scene.dimension;
   for (int i = 0; i < static_cast<int>(app.session.meshes().bodies.size()); ++i) {
     const Handle h = handle_of(app, i, projection);
-    const Colour colour = i == 0 ? app.theme.palette.body_a : i == 1 ? app.theme.palette.body_b : app.theme.palette.text_soft;
+    const Colour colour = letter_colour(app, i);
     const std::string letter = body_letter(i);
     const bool near = ImGui::IsItemHovered() && distance(mouse, h.centre) < h.radius + app.theme.px(3);
     const bool near_disc = ImGui::IsItemHovered() && dimension > 1 && !near && distance(mouse, h.disc) < app.theme.px(7);
@@ -127,8 +133,7 @@ void body_letters(App& app, const Projection& projection) {
   const auto& places = app.session.frame().places;
   for (int i = 0; i < static_cast<int>(places.size()); ++i) {
     const ImVec2 c = at(projection(to_view(places[static_cast<std::size_t>(i)].position) + row_offset(i, app.session.meshes().dimension, projection)));
-    const Colour colour = i == 0 ? app.theme.palette.body_a : i == 1 ? app.theme.palette.body_b : app.theme.palette.text_soft;
-    ImGui::GetWindowDrawList()->AddText(app.theme.small, app.theme.small->FontSize, {c.x - app.theme.px(4), c.y - app.theme.px(7)}, packed(colour), body_letter(i).c_str());
+    ImGui::GetWindowDrawList()->AddText(app.theme.small, app.theme.small->FontSize, {c.x - app.theme.px(4), c.y - app.theme.px(7)}, packed(letter_colour(app, i)), body_letter(i).c_str());
   }
 }
 
@@ -139,7 +144,8 @@ struct Shown {
 };
 
 std::string title_of(App& app, const Shown& shown) {
-  std::string title = shown.world ? "World" : "Minkowski difference A \xE2\x88\x92 B";
+  const auto& pair = app.session.frame().pair;
+  std::string title = shown.world ? "World" : "Minkowski difference " + body_letter(pair[0]) + " \xE2\x88\x92 " + body_letter(pair[1]);
   if (app.session.comparing()) title += std::string(": ") + (shown.other ? app.session.other_title() : method_text(app.session.recording().settings));
   return title;
 }
@@ -197,8 +203,9 @@ void one_view(App& app, const Area& area, const Shown& shown, bool interactive, 
   draw->AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + solid}, packed(theme.palette.view.with_alpha(1)));
   draw->AddRectFilledMultiColor({area.x, area.y + solid}, {area.x + area.width, area.y + faded}, cover, cover, clear, clear);
   const ImVec2 title{area.x + theme.px(14), area.y + theme.px(10)};
-  draw->AddText(theme.text, theme.text->FontSize, title, packed(shown.other ? theme.palette.body_b : theme.palette.text), title_of(app, shown).c_str());
-  draw->AddText(theme.small, theme.small->FontSize, {title.x, title.y + theme.px(20)}, packed(theme.palette.text_faint), subtitle_of(app, shown).c_str());
+  const float room = area.x + area.width - theme.px(8) - title.x;
+  draw->AddText(theme.text, theme.text->FontSize, title, packed(shown.other ? theme.palette.body_b : theme.palette.text), shortened(theme.text, title_of(app, shown), room).c_str());
+  draw->AddText(theme.small, theme.small->FontSize, {title.x, title.y + theme.px(20)}, packed(theme.palette.text_faint), shortened(theme.small, subtitle_of(app, shown), room).c_str());
   if (interactive) interact(app, area, shown, camera, projection, items, pointed);
   ImGui::EndChild();
   ImGui::PopStyleVar();

@@ -16,6 +16,19 @@ void section(const Theme& theme, const char* title) {
   ImGui::PopFont();
 }
 
+std::string shortened(const ImFont* font, const std::string& text, float room) {
+  const auto width = [&](const std::string& t) { return font->CalcTextSizeA(font->FontSize, 1e6f, 0, t.c_str()).x; };
+  if (width(text) <= room) return text;
+  std::string cut = text;
+  const auto inside_a_letter = [&] { return (cut.back() & 0xC0) == 0x80; };  // of several bytes
+  while (!cut.empty() && width(cut + "\xE2\x80\xA6") > room) {
+    while (inside_a_letter()) cut.pop_back();
+    cut.pop_back();
+    while (!cut.empty() && cut.back() == ' ') cut.pop_back();
+  }
+  return cut + "\xE2\x80\xA6";
+}
+
 void wrapped(const std::string& text, Colour colour) {
   const float room = ImGui::GetContentRegionAvail().x;
   std::string broken;
