@@ -41,8 +41,9 @@ RayCastResult<Difference::D, typename Difference::S> ray_cast(Difference& differ
   RayCastResult<D, S> result;
   Simplex<D, S> simplex;
   V x = V::Zero();
-  auto first = difference.support(ray.isZero(0) ? V(V::Unit(0)) : ray);
-  if constexpr (traced<Trace>) trace(SupportQueried<V, Viewed>{0, Phase::cast, ray, first.vertex, first.a, first.b, first.w});
+  const V out = ray.isZero(0) ? V(V::Unit(0)) : ray;  // bodies that keep their distance need some direction, too
+  auto first = difference.support(out);
+  if constexpr (traced<Trace>) trace(SupportQueried<V, Viewed>{0, Phase::cast, out, first.vertex, first.a, first.b, first.w});
   simplex.add(first);
   simplex.weights[0] = 1;
   V v = x - first.w;

@@ -216,7 +216,6 @@ class PairSolver {
 
   void portal_depth(const MprResult<D, S>& found) {
     witnesses(found.point_a, found.point_b, found.normal, S(static_cast<double>(-found.depth) + radius_), true);
-    result_->intersecting = found.overlapping();
     result_->lower_bound = length(-static_cast<double>(found.upper_bound));
     result_->upper_bound = length(-static_cast<double>(found.lower_bound));
   }

@@ -244,6 +244,7 @@ std::vector<Finding> check(const Recording& recording) {
   const Query query = recording.scene.scene.query;
   if (query == Query::cast || query == Query::simulate) {
     query == Query::cast ? check_cast(context) : check_simulation(context);
+    record.motion();
     return context.take();
   }
   if (recording.result.status != "aborted") check_result(context, walk.best_plane), record.result();

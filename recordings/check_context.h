@@ -201,10 +201,13 @@ class RecordCheck {
   /// After every other check of the event: what those find is nearer to the cause.
   void operator()(const Event& event);
   void result();
+  void motion();  ///< the counts of a cast's or a simulation's result
 
  private:
   void contradiction(const std::string& message);
-  void count(int iteration, bool last);
+  template <class E>
+  int right_iteration(const E& e) const;
+  void leads_on(const AnyVector& direction, const AnyVector& from, const char* what);
   void next_in_line(const char* what, int number, int& last);
   bool differ(double said, double right) const;
   void same_bounds(const char* whose, double lower, double upper);
@@ -232,6 +235,9 @@ class RecordCheck {
   void judge(const recorded::PointPredicted& e);
   void judge(const recorded::PointsProjected& e);
   void judge(const recorded::ProjectionsEnded& e);
+  void judge(const recorded::CastBegan& e);
+  void judge(const recorded::CastAdvanced& e);
+  void judge(const recorded::CastEnded& e) { cast_iterations_ = e.iteration; }
   template <class E>
   void judge(const E&) {}
 
@@ -240,8 +246,10 @@ class RecordCheck {
   AnyVector first_;  ///< the direction GJK says it begins with, until it has
   int iterations_ = 0, supports_ = 0, newest_ = -1, last_face_ = -1;
   std::set<std::string> statuses_;            ///< of the phases that ended
-  int iteration_ = -1;                        ///< of the event before; -1: it had none, or ended a phase
+  int iteration_ = 0;                         ///< of the phase, so far
+  bool counted_ = false;                      ///< whether it was seen to begin
   std::vector<int> simplex_, asked_;          ///< GJK's: kept, and asked for since; newest first
+  AnyVector towards_, chosen_normal_, axis_;  ///< where the next support leads: from GJK's nearest point, across EPA's face; and where the last one led
   double plane_ = 0;                          ///< the farthest its supports have proven the cores apart
   double lower_ = 0, upper_ = 0;              ///< what the phase knows of the bodies' signed distance, infinite where nothing, NaN where the events do not say
   std::map<int, recorded::Face> faces_;       ///< EPA's, those removed too
@@ -249,6 +257,8 @@ class RecordCheck {
   double height_ = 0;                         ///< the least along the normals chosen
   std::array<int, 3> axes_{};                 ///< SAT's, by source: how many may still come
   std::optional<recorded::ClosedFormBegan> segments_;
+  std::vector<Edge> pairs_;                   ///< of the bodies that a cast looks at
+  std::optional<int> cast_iterations_;
   AnyVector projected_from_;                  ///< the point last said to be projected; empty before any
 };
 

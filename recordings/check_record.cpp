@@ -9,7 +9,12 @@
 namespace gjkdbg {
 namespace {
 
+template <class E, class... Others>
+constexpr bool is_one_of = (std::is_same_v<E, Others> || ...);
+
 constexpr double unknown = std::numeric_limits<double>::infinity(), unknowable = std::numeric_limits<double>::quiet_NaN();  // from the events
+
+bool looked_at(const std::vector<Edge>& pairs, const Edge& pair) { return std::find(pairs.begin(), pairs.end(), pair) != pairs.end(); }
 
 bool same_numbers(std::vector<int> x, std::vector<int> y) {
   std::sort(x.begin(), x.end()), std::sort(y.begin(), y.end());
@@ -26,19 +31,33 @@ void RecordCheck::operator()(const Event& event) {
   if (!ours_) return;
   std::visit(
       [this](const auto& e) {
-        constexpr bool ends = requires { e.status; };
-        if constexpr (requires { e.iteration; }) count(e.iteration, ends);
-        else iteration_ = -1;
+        using E = std::decay_t<decltype(e)>;
+        constexpr bool begins = is_one_of<E, recorded::GjkBegan, recorded::MprBegan, recorded::SatBegan, recorded::ProjectionsBegan, recorded::PolytopeSeeded>;
+        if constexpr (begins) counted_ = true, iteration_ = std::is_same_v<E, recorded::GjkBegan> ? -1 : 0;
+        if constexpr (requires { e.iteration; } && !is_one_of<E, recorded::CastAdvanced, recorded::CastEnded>) {
+          const int right = right_iteration(e);
+          if constexpr (std::is_same_v<E, recorded::SupportQueried>) counted_ |= e.phase == Phase::seed;
+          if (counted_ && e.iteration != right) contradiction("Iteration " + std::to_string(e.iteration) + " is in the place of iteration " + std::to_string(right) + ".");
+          iteration_ = e.iteration;
+          if constexpr (requires { e.status; }) iterations_ += e.iteration, counted_ = false, iteration_ = 0;
+        }
         judge(e);
       },
       event);
 }
 
-/// From event to event of a phase they go up by one, or stay. (The rays of a cast, one for each part of a mesh, have no event between them.)
-void RecordCheck::count(int iteration, bool last) {
-  if (iteration_ >= 0 && !c_.recording.scene.scene.motion && (iteration < iteration_ || iteration > iteration_ + 1)) contradiction("Iteration " + std::to_string(iteration) + " follows iteration " + std::to_string(iteration_) + ".");
-  iteration_ = last ? -1 : iteration;
-  if (last) iterations_ += iteration;
+/// A support begins the next iteration and two points projected the next round; all else belongs to the one that runs. The supports that complete
+/// EPA's first polytope are before its first.
+template <class E>
+int RecordCheck::right_iteration(const E& e) const {
+  if constexpr (std::is_same_v<E, recorded::SupportQueried>) return e.phase == Phase::seed ? 0 : e.phase == Phase::projections ? iteration_ : iteration_ + 1;
+  else return std::max(0, iteration_) + (std::is_same_v<E, recorded::PointsProjected> ? 1 : 0);
+}
+
+/// Ours looks exactly where the step before leads.
+void RecordCheck::leads_on(const AnyVector& direction, const AnyVector& from, const char* what) {
+  if (from.size() != direction.size() || !from.allFinite() || from.isZero(0)) return;
+  if ((direction.stableNormalized() - from.stableNormalized()).norm() > 1e-12) contradiction("The direction is " + text_of(direction) + ", but " + what + " leads along " + text_of(from) + ".");
 }
 
 void RecordCheck::next_in_line(const char* what, int number, int& last) {
@@ -58,7 +77,7 @@ void RecordCheck::same_bounds(const char* whose, double lower, double upper) {
 }
 
 void RecordCheck::judge(const recorded::GjkBegan& e) {
-  simplex_.clear(), asked_.clear(), first_ = e.direction;
+  simplex_.clear(), asked_.clear(), first_ = e.direction, towards_ = AnyVector();
   plane_ = lower_ = -unknown, upper_ = unknown;
 }
 /// Where a simplex was kept, its nearest point leads on.
@@ -70,8 +89,10 @@ void RecordCheck::judge(const recorded::SupportQueried& e) {
   ++supports_;
   next_in_line("Vertex ", e.vertex, newest_);
   const AnyVector d = e.direction.stableNormalized();
-  if (e.phase == Phase::epa) height_ = std::min(height_, d.dot(e.w));
+  axis_ = e.direction;
+  if (e.phase == Phase::epa) height_ = std::min(height_, d.dot(e.w)), leads_on(e.direction, chosen_normal_, "the face chosen");
   if (e.phase != Phase::gjk) return;
+  leads_on(e.direction, std::exchange(towards_, AnyVector()), "the nearest point of the simplex");
   plane_ = std::max(plane_, -d.dot(e.w)), lower_ = plane_ - c_.radius;
   const AnyVector first = std::exchange(first_, AnyVector());
   if (asked_.empty() && first.size() > 0 && first != e.direction) contradiction("The first direction is " + text_of(e.direction) + ", but GJK began with " + text_of(first) + ".");
@@ -91,6 +112,7 @@ void RecordCheck::judge(const recorded::SimplexReduced& e) {
   if (e.closest.size() > 0 && e.barycentric.size() != e.region.size()) contradiction("There are " + std::to_string(e.barycentric.size()) + " weights for " + std::to_string(e.region.size()) + " vertices.");
   simplex_ = e.region;
   if (e.closest.size() > 0) upper_ = e.closest.norm() - c_.radius;
+  if (!some && e.closest.size() > 0) towards_ = -e.closest;
   same_bounds("The", e.lower_bound, e.upper_bound);
 }
 
@@ -137,7 +159,7 @@ void RecordCheck::judge(const recorded::PolytopeSeeded& e) {
 }
 
 /// Of the depth it is the lower bound.
-void RecordCheck::judge(const recorded::FaceChosen& e) { chosen_.insert(e.face), upper_ = -e.distance - c_.radius; }
+void RecordCheck::judge(const recorded::FaceChosen& e) { chosen_.insert(e.face), upper_ = -e.distance - c_.radius, chosen_normal_ = e.normal; }
 
 /// The new vertex is the one asked for last. The horizon is a loop, each edge as a removed face has it, and a new face stands on each.
 void RecordCheck::judge(const recorded::PolytopeGrown& e) {
@@ -186,6 +208,8 @@ void RecordCheck::judge(const recorded::MprEnded& e) {
 /// A pair of edges of which one has no faces beside it is an axis both ways.
 void RecordCheck::judge(const recorded::SatBegan& e) { axes_ = {e.faces_a, e.faces_b, 2 * e.edge_pairs}; }
 void RecordCheck::judge(const recorded::AxisTested& e) {
+  leads_on(e.direction, axis_, "its support");
+  if (e.vertex != newest_) contradiction("Vertex " + std::to_string(e.vertex) + " is said to be the farthest along the axis, but the last one asked for is " + std::to_string(newest_) + ".");
   if (--axes_[static_cast<std::size_t>(e.source)] < 0) contradiction("More axes of \"" + std::string(axis_source_names[static_cast<std::size_t>(e.source)]) + "\" are tested than there are said to be.");
 }
 void RecordCheck::judge(const recorded::SatEnded& e) {
@@ -246,6 +270,32 @@ void RecordCheck::judge(const recorded::ProjectionsEnded& e) {
   lower_ = e.lower_bound, upper_ = e.upper_bound;
 }
 
+/// Two bodies are looked at whatever they do, of more those that move against one another; after a response these may be others.
+void RecordCheck::judge(const recorded::CastBegan& e) {
+  const std::vector<Body>& bodies = c_.recording.scene.scene.bodies;
+  const auto meets = [&](const Body& a, const Body& b) {
+    const auto turns = [](const Body& body) { return body.motion->angular_velocity.size() > 0 && !body.motion->angular_velocity.isZero(0); };
+    return bodies.size() == 2 || turns(a) || turns(b) || a.motion->velocity != b.motion->velocity;
+  };
+  std::vector<Edge> right;
+  for (int i = 0; i < static_cast<int>(bodies.size()); ++i)
+    for (int j = i + 1; j < static_cast<int>(bodies.size()); ++j)
+      if (!pairs_.empty() ? looked_at(e.pairs, {i, j}) : meets(bodies[static_cast<std::size_t>(i)], bodies[static_cast<std::size_t>(j)])) right.push_back({i, j});
+  if (e.pairs != right) contradiction("The cast's pairs are not those of the bodies that move against one another, each once, the lower number first.");
+  pairs_ = e.pairs;
+}
+void RecordCheck::judge(const recorded::CastAdvanced& e) {
+  if (!looked_at(pairs_, e.pair)) contradiction("Bodies " + std::to_string(e.pair[0]) + " and " + std::to_string(e.pair[1]) + " are none of the cast's pairs.");
+}
+
+void RecordCheck::motion() {
+  const Result& r = c_.recording.result;
+  if (!ours_ || r.status == "aborted") return;
+  const bool simulated = c_.recording.scene.scene.query == Query::simulate;
+  if (const int right = simulated ? iterations_ : cast_iterations_.value_or(r.iterations); r.iterations != right) contradiction("The result counts " + std::to_string(r.iterations) + " iterations, the steps " + std::to_string(right) + ".");
+  if (r.support_calls < supports_) contradiction("The result counts " + std::to_string(r.support_calls) + " support calls, but " + std::to_string(supports_) + " were made.");
+}
+
 /// What is missing of what was asked for, or there without having been asked for.
 std::string RecordCheck::not_as_asked() const {
   const Result& r = c_.recording.result;
@@ -264,6 +314,12 @@ void RecordCheck::result() {
   if (!ours_ || statuses_.empty()) return;
   if (const std::string wrong = not_as_asked(); !wrong.empty()) contradiction("The scene asks for \"" + std::string(query_names[static_cast<std::size_t>(c_.recording.scene.scene.query)]) + "\", but the result " + wrong + ".");
   if (!statuses_.contains(r.status)) contradiction("The result's status is \"" + r.status + "\", with which no phase ended.");
+  const AnyVector* at[] = {r.witness_a ? &*r.witness_a : nullptr, r.witness_b ? &*r.witness_b : nullptr};
+  if (r.signed_distance && r.intersecting != (*r.signed_distance <= 0)) contradiction(std::string("The bodies are called ") + (r.intersecting ? "overlapping" : "apart") + ", at a signed distance of " + text_of(*r.signed_distance) + ".");
+  if (r.signed_distance && r.normal && at[0] && at[1]) {
+    const double off = (*at[1] - *at[0] - *r.signed_distance * *r.normal).norm(), most = std::max(at[0]->norm(), at[1]->norm()) + std::abs(*r.signed_distance);
+    if (off > c_.digits() * most) contradiction("witness_b - witness_a is off signed_distance * normal by " + text_of(off) + ".");
+  }
   if (r.iterations != iterations_) contradiction("The result counts " + std::to_string(r.iterations) + " iterations, the phases " + std::to_string(iterations_) + ".");
   if (c_.recording.scene.scene.query == Query::distance) lower_ = std::max(lower_, 0.0), upper_ = r.intersecting ? unknowable : upper_;
   if (r.lower_bound && r.upper_bound) same_bounds("The result's", *r.lower_bound, *r.upper_bound);

@@ -323,6 +323,18 @@ TEST(EdgeCases, WeightsOfAFlatTriangleAroundTheOrigin) {
   weights_make_the_origin<VoronoiRegions<2, double>>();
 }
 
+/// In single precision GJK calls them touching, and MPR's portal lies 0.001 on the near side of the origin: that is a gap, not an overlap 0.001 apart.
+TEST(EdgeCases, ADepthBelowZeroIsNoOverlap) {
+  const Scene scene = scene_of(R"("dimension": 3, "query": "penetration", "bodies": [
+    {"shape": {"type": "box", "half_extents": [1000, 0.001, 0.001]}},
+    {"shape": {"type": "box", "half_extents": [0.001, 1000, 0.001]}, "pose": {"position": [0, 0, 0.003]}}])");
+  Method m;
+  m.scalar = Scalar::float_precision, m.penetration = Penetration::mpr;
+  const Result r = run(scene, m);
+  EXPECT_NEAR(*r.signed_distance, 0.001, 1e-6);
+  EXPECT_FALSE(r.intersecting);
+}
+
 /// From a cylinder and a capsule: the origin lies 4e-13 beside a tetrahedron 1e-10 thick, too little for Johnson's cofactors. Weights of an inside would miss it by
 /// 6e-3; those of the nearest edge do not.
 TEST(EdgeCases, WeightsOfASliverThatIsOnlyCalledEnclosing) {
