@@ -71,6 +71,7 @@ struct CastCheck {
 
   void advanced(const recorded::CastAdvanced& e) const {
     if (!exists(e.pair)) return c.find("wrong-pair", "The scene has no bodies " + std::to_string(e.pair[0]) + " and " + std::to_string(e.pair[1]) + ".");
+    if (e.normal.allFinite() && !e.normal.isZero(0) && std::abs(e.normal.norm() - 1) > 1e-5) return c.find("wrong-normal", "The normal " + text_of(e.normal) + " has length " + text_of(e.normal.norm()) + " instead of 1.");
     if (c.recording.settings.name == MethodName::ray_cast || has_mesh(e.pair) || !e.normal.allFinite() || e.normal.isZero(0)) return;
     const double gap = gap_at(e.pair, e.time);
     if (std::abs(e.distance - gap) > limit) c.find("wrong-distance", "At time " + text_of(e.time) + " bodies " + std::to_string(e.pair[0]) + " and " + std::to_string(e.pair[1]) + " are " + text_of(gap) + " apart, not " + text_of(e.distance) + ".");

@@ -207,7 +207,7 @@ class RecordCheck {
   void contradiction(const std::string& message);
   template <class E>
   int right_iteration(const E& e) const;
-  void leads_on(const AnyVector& direction, const AnyVector& from, const char* what);
+  void leads_on(const AnyVector& direction, const AnyVector& from, const char* what, double slack = 1e-12);
   void next_in_line(const char* what, int number, int& last);
   bool differ(double said, double right) const;
   void same_bounds(const char* whose, double lower, double upper);
@@ -223,6 +223,7 @@ class RecordCheck {
   void judge(const recorded::FaceChosen& e);
   void judge(const recorded::PolytopeGrown& e);
   void judge(const recorded::EpaEnded& e);
+  void judge(const recorded::MprBegan& e) { from_interior_ = e.interior.norm() > 1000 * c_.digits() * c_.size ? AnyVector(-e.interior) : AnyVector(); }  // near the origin rounding leads elsewhere
   void judge(const recorded::PortalFound& e);
   void judge(const recorded::MprEnded& e);
   void judge(const recorded::SatBegan& e);
@@ -249,7 +250,8 @@ class RecordCheck {
   int iteration_ = 0;                         ///< of the phase, so far
   bool counted_ = false;                      ///< whether it was seen to begin
   std::vector<int> simplex_, asked_;          ///< GJK's: kept, and asked for since; newest first
-  AnyVector towards_, chosen_normal_, axis_;  ///< where the next support leads: from GJK's nearest point, across EPA's face; and where the last one led
+  AnyVector towards_, chosen_normal_, from_interior_;  ///< where the next support leads: from GJK's nearest point, across EPA's face, from MPR's inner point
+  AnyVector axis_;                            ///< where the last one led
   double plane_ = 0;                          ///< the farthest its supports have proven the cores apart
   double lower_ = 0, upper_ = 0;              ///< what the phase knows of the bodies' signed distance, infinite where nothing, NaN where the events do not say
   std::map<int, recorded::Face> faces_;       ///< EPA's, those removed too

@@ -55,9 +55,9 @@ int RecordCheck::right_iteration(const E& e) const {
 }
 
 /// Ours looks exactly where the step before leads.
-void RecordCheck::leads_on(const AnyVector& direction, const AnyVector& from, const char* what) {
+void RecordCheck::leads_on(const AnyVector& direction, const AnyVector& from, const char* what, double slack) {
   if (from.size() != direction.size() || !from.allFinite() || from.isZero(0)) return;
-  if ((direction.stableNormalized() - from.stableNormalized()).norm() > 1e-12) contradiction("The direction is " + text_of(direction) + ", but " + what + " leads along " + text_of(from) + ".");
+  if ((direction.stableNormalized() - from.stableNormalized()).norm() > slack) contradiction("The direction is " + text_of(direction) + ", but " + what + " leads along " + text_of(from) + ".");
 }
 
 void RecordCheck::next_in_line(const char* what, int number, int& last) {
@@ -91,6 +91,7 @@ void RecordCheck::judge(const recorded::SupportQueried& e) {
   const AnyVector d = e.direction.stableNormalized();
   axis_ = e.direction;
   if (e.phase == Phase::epa) height_ = std::min(height_, d.dot(e.w)), leads_on(e.direction, chosen_normal_, "the face chosen");
+  if (e.phase == Phase::mpr) leads_on(e.direction, std::exchange(from_interior_, AnyVector()), "the way from MPR's inner point to the origin", 100 * c_.digits());
   if (e.phase != Phase::gjk) return;
   leads_on(e.direction, std::exchange(towards_, AnyVector()), "the nearest point of the simplex");
   plane_ = std::max(plane_, -d.dot(e.w)), lower_ = plane_ - c_.radius;
