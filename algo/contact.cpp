@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
-#include "shapes/convex_hull.h"
-#include "shapes/corners.h"
+#include "algo/flat_feature.h"
 
 namespace gjkdbg {
 namespace {
@@ -12,73 +12,7 @@ namespace {
 using Points = std::vector<AnyVector>;
 
 constexpr double alignment_limit = 1 - 1e-9;  ///< cosine: a face whose normal is this near the pair's can be the reference
-
-/// The face of a body that looks most along a direction: its corners in order, and how well it is aligned (the cosine;
-/// -2 when the body has no face: then `points` are all of its corners).
-struct Feature {
-  Points points;
-  double alignment = -2;
-};
-
-double size_of_points(const Points& points) {
-  double size = 0;
-  for (const AnyVector& p : points) size = std::max(size, (p - points[0]).cwiseAbs().maxCoeff());
-  return size;
-}
-
-AnyVector normal_of(const Points& face) {
-  const int dimension = static_cast<int>(face[0].size());
-  if (dimension == 2) {
-    const AnyVector e = face[1] - face[0];
-    return Eigen::Vector2d(e[1], -e[0]).normalized();
-  }
-  // Newell's sum: the vector area, whatever the polygon's corners are.
-  Eigen::Vector3d area = Eigen::Vector3d::Zero();
-  for (std::size_t i = 1; i + 1 < face.size(); ++i) {
-    const Eigen::Vector3d x = face[i] - face[0], y = face[i + 1] - face[0];
-    area += x.cross(y);
-  }
-  return area.stableNormalized();
-}
-
-std::vector<Points> faces_of(const Points& points, int dimension) {
-  const ConvexHull hull = convex_hull(points, dimension);
-  std::vector<Points> faces;
-  if (dimension == 2 && hull.rank == 1) {
-    const AnyVector &p = points[static_cast<std::size_t>(hull.vertices.front())], &q = points[static_cast<std::size_t>(hull.vertices.back())];
-    return {{p, q}, {q, p}};
-  }
-  for (const auto& loop : hull.faces) {
-    Points corners;
-    for (const int i : loop) corners.push_back(points[static_cast<std::size_t>(i)]);
-    if (dimension == 3) {
-      faces.push_back(corners);
-    } else {
-      for (std::size_t i = 0; i < corners.size(); ++i) faces.push_back({corners[i], corners[(i + 1) % corners.size()]});
-    }
-  }
-  return faces;
-}
-
-/// An edge in the plane with what lies on its line as well: a corner within it may be one of the hull's by rounding.
-Points whole_edge(const Points& edge, const Points& all) {
-  const AnyVector along = edge[1] - edge[0], n = normal_of(edge);
-  Points whole = edge;
-  for (const AnyVector& p : all) {
-    if (n.dot(p - edge[0]) < -1e-12 * size_of_points(all)) continue;
-    if (along.dot(p - whole[0]) < 0) whole[0] = p;
-    if (along.dot(p - whole[1]) > 0) whole[1] = p;
-  }
-  return whole;
-}
-
-Feature feature(const Corners& body, const AnyVector& direction) {
-  Feature best{body.points, -2};
-  for (const Points& face : faces_of(body.points, static_cast<int>(direction.size())))
-    if (const double cosine = normal_of(face).dot(direction); cosine > best.alignment) best = {face, cosine};
-  if (direction.size() == 2 && best.alignment > -2) best.points = whole_edge(best.points, body.points);
-  return best;
-}
+constexpr double edge_on = 1e-6;              ///< sine: a face that is seen at less has no part of its own behind another
 
 /// The part of a polygon (or of a segment, two corners) on the inner side of a plane: outward . (x - on) <= 0.
 Points clipped(const Points& polygon, const AnyVector& outward, const AnyVector& on) {
@@ -105,10 +39,102 @@ Points clip_to_sides(Points incident, const Points& reference, const AnyVector& 
   return incident;
 }
 
-Points in_world(const Points& points, const Pose& pose) {
+// --- Discs: nothing of them is a polygon. Their part of the contact's outline is told by points of the rim, those where it meets the other outline among them. ---
+
+/// Points of a disc's rim, an eighth of the way around apart, from the one farthest along a direction on; where none is, from the same one always.
+struct Rim {
+  Eigen::Vector3d center, u, v;
+
+  Rim(const Disc& disc, const Eigen::Vector3d& first) : center(disc.center) {
+    const Eigen::Vector3d along = first - disc.normal * disc.normal.dot(first);
+    u = (along.norm() > 1e-9 ? along.normalized() : disc.normal.unitOrthogonal()) * disc.radius, v = disc.normal.cross(u);
+  }
+  Eigen::Vector3d at(double eighths) const {
+    const double angle = eighths * std::numbers::pi / 4;
+    return center + std::cos(angle) * u + std::sin(angle) * v;
+  }
+};
+
+/// Where the line through x along n meets the plane through `on` across m.
+Eigen::Vector3d lifted(const Eigen::Vector3d& x, const Eigen::Vector3d& n, const Eigen::Vector3d& on, const Eigen::Vector3d& m) {
+  return x + n * (m.dot(on - x) / m.dot(n));
+}
+
+/// How far x lies outside the cylinder that a disc sweeps along a direction, if the disc lies across it.
+double outside(const Disc& disc, const Eigen::Vector3d& n, const Eigen::Vector3d& x) {
+  const Eigen::Vector3d d = x - disc.center;
+  return (d - n * n.dot(d)).norm() - disc.radius;
+}
+
+/// Whether x, in the polygon's plane or above it, lies within its sides.
+bool within(const Points& polygon, const Eigen::Vector3d& normal, const Eigen::Vector3d& x) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector3d edge = polygon[(i + 1) % polygon.size()] - polygon[i], from = polygon[i];
+    if (edge.cross(normal).dot(x - from) > 0) return false;
+  }
+  return true;
+}
+
+/// A polygon's corners, or a line's ends, within the cylinder that a disc sweeps along n, and where its edges enter and leave that: with a from the axis to
+/// an edge's beginning and e along the edge, both across n, |a + t e|^2 = r^2.
+Points outline_within(const Points& polygon, const Disc& disc, const Eigen::Vector3d& n) {
   Points out;
-  for (const AnyVector& p : points) out.push_back(pose.matrix * p + pose.position);
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector3d p = polygon[i], along = polygon[(i + 1) % polygon.size()] - polygon[i], from = p - disc.center;
+    const Eigen::Vector3d a = from - n * n.dot(from), e = along - n * n.dot(along);
+    if (outside(disc, n, p) <= 0) out.push_back(p);
+    const double ee = e.squaredNorm(), ae = a.dot(e), room = ae * ae - ee * (a.squaredNorm() - disc.radius * disc.radius);
+    if (ee == 0 || !(room > 0)) continue;
+    for (const double root : {-std::sqrt(room), std::sqrt(room)})
+      if (const double t = (root - ae) / ee; t > 0 && t < 1) out.push_back(p + along * t);
+  }
   return out;
+}
+
+Points disc_behind_polygon(const Disc& incident, const Points& reference, const Eigen::Vector3d& n) {
+  Points above;
+  for (const AnyVector& p : reference) above.push_back(lifted(p, n, incident.center, incident.normal));
+  const Rim rim(incident, -n);
+  Points out;
+  for (int k = 0; k < 8; ++k)
+    if (within(reference, n, rim.at(k))) out.push_back(rim.at(k));
+  for (const AnyVector& p : outline_within(above, incident, incident.normal)) out.push_back(p);
+  return out;
+}
+
+Points polygon_behind_disc(const Points& incident, const Disc& reference, const Eigen::Vector3d& n) {
+  Points out = outline_within(incident, reference, n);
+  const Eigen::Vector3d m = incident.size() < 3 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(normal_of(incident));
+  if (std::abs(m.dot(n)) < edge_on) return out;
+  const Rim rim(reference, Eigen::Vector3d::Zero());
+  for (int k = 0; k < 8; ++k)
+    if (const Eigen::Vector3d x = lifted(rim.at(k), n, incident[0], m); within(incident, m, x)) out.push_back(x);
+  return out;
+}
+
+Points disc_behind_disc(const Disc& incident, const Disc& reference, const Eigen::Vector3d& n) {
+  const Rim rim(incident, -n), other(reference, Eigen::Vector3d::Zero());
+  Points out;
+  for (int k = 0; k < 8; ++k) {
+    const double here = outside(reference, n, rim.at(k)), next = outside(reference, n, rim.at(k + 1));
+    if (here <= 0) out.push_back(rim.at(k));
+    if ((here <= 0) == (next <= 0)) continue;
+    double in = here <= 0 ? k : k + 1, beyond = here <= 0 ? k + 1 : k;  // halved until they are neighbours
+    for (double middle = (in + beyond) / 2; middle != in && middle != beyond; middle = (in + beyond) / 2) (outside(reference, n, rim.at(middle)) <= 0 ? in : beyond) = middle;
+    out.push_back(rim.at(in));
+  }
+  for (int k = 0; k < 8; ++k)
+    if (const Eigen::Vector3d x = lifted(other.at(k), n, incident.center, incident.normal); (x - incident.center).norm() <= incident.radius) out.push_back(x);
+  return out;
+}
+
+/// The points of the incident feature's outline that lie behind the reference, or above it, and of the reference's outline above the incident feature.
+Points common_outline(const FlatFeature& incident, const FlatFeature& reference, const AnyVector& n) {
+  if (incident.disc && std::abs(n.dot(incident.disc->normal)) < edge_on) return {};
+  if (incident.disc && reference.disc) return disc_behind_disc(*incident.disc, *reference.disc, n);
+  if (incident.disc) return disc_behind_polygon(*incident.disc, reference.points, n);
+  if (reference.disc) return polygon_behind_disc(incident.points, *reference.disc, n);
+  return clip_to_sides(incident.points, reference.points, n);
 }
 
 /// Contacts of an incident feature behind a reference face. `n` is the reference's outward normal.
@@ -135,20 +161,14 @@ std::vector<ContactPoint> behind(const Points& clipped, const AnyVector& r0, con
 std::vector<ContactPoint> contact_points(const Body& a, const Body& b, const Result& result) {
   const std::vector<ContactPoint> witness{{*result.witness_a, *result.witness_b, std::max(0.0, -*result.signed_distance)}};
   const AnyVector n = *result.normal;
-  const int dimension = static_cast<int>(n.size());
-  auto corners_a = corners_of(a.shape, dimension), corners_b = corners_of(b.shape, dimension);
-  if (dimension == 1 || !corners_a || !corners_b) return witness;
-  corners_a->points = in_world(corners_a->points, a.pose);
-  corners_b->points = in_world(corners_b->points, b.pose);
-  const Feature face_a = feature(*corners_a, n), face_b = feature(*corners_b, -n);
-  const bool reference_is_a = face_a.alignment >= face_b.alignment - 1e-12;
-  const Feature &reference = reference_is_a ? face_a : face_b, &incident = reference_is_a ? face_b : face_a;
+  const auto face_a = flat_feature(a, n), face_b = flat_feature(b, -n);
+  if (!face_a || !face_b) return witness;
+  const bool reference_is_a = face_a->alignment >= face_b->alignment - 1e-12;
+  const FlatFeature &reference = reference_is_a ? *face_a : *face_b, &incident = reference_is_a ? *face_b : *face_a;
   if (reference.alignment < alignment_limit) return witness;
-  const AnyVector outward = reference_is_a ? n : AnyVector(-n);
-  const Corners &owner = reference_is_a ? *corners_a : *corners_b, &other = reference_is_a ? *corners_b : *corners_a;
-  const double size = size_of_points(owner.points) + size_of_points(other.points) + owner.radius + other.radius;
-  const Points left = clip_to_sides(incident.points, reference.points, outward);
-  const auto contacts = behind(left, reference.points[0], outward, owner.radius, other.radius, size, reference_is_a);
+  const AnyVector outward = reference_is_a ? n : AnyVector(-n), on_face = reference.disc ? AnyVector(reference.disc->center) : reference.points[0];
+  const double size = reference.size + incident.size + reference.radius + incident.radius;
+  const auto contacts = behind(common_outline(incident, reference, outward), on_face, outward, reference.radius, incident.radius, size, reference_is_a);
   return contacts.empty() ? witness : contacts;
 }
 

@@ -1,10 +1,10 @@
 // Contact points of two touching or overlapping bodies, from the normal EPA found.
 //
-// For polytopes: of the faces of both that look along the normal, the one that looks along it best is the reference; the
-// other body's most opposed face is clipped to its sides (Sutherland, Hodgman 1974), and every corner left that
-// lies behind the reference face is a contact point with its own depth (Gregorius, "The Separating Axis Test between
-// Convex Polyhedra", GDC 2013). Where no face looks along the normal (edge on edge, round bodies), the pair of
-// witness points is the contact.
+// Of the flat parts of both that look most along the normal (algo/flat_feature.h) the one that looks along it best is the reference; the other one is clipped
+// to its sides (Sutherland, Hodgman 1974), and every corner left that lies behind the reference is a contact point with its own depth (Gregorius, "The
+// Separating Axis Test between Convex Polyhedra", GDC 2013). The end of a cylinder or a cone is a disc: of its outline count the rim's points an eighth of the
+// way around apart, the deepest one first, and those where it meets the other outline. Where nothing flat looks along the normal (edge on edge, round
+// bodies), the pair of witness points is the contact.
 #pragma once
 
 #include <vector>

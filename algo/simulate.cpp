@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "algo/impulses.h"
 #include "algo/motion.h"
 #include "shapes/mass.h"
 
@@ -14,38 +15,8 @@ namespace {
 using V3 = Eigen::Vector3d;
 using M3 = Eigen::Matrix3d;
 
-constexpr int most_rounds = 200;      ///< of impulses within a step
 constexpr double left_over = 1e-3;    ///< of the size: overlap that is left where it is
 constexpr double moved_apart = 0.4;   ///< share of the rest that a step takes away
-
-/// In the plane and on the line the missing coordinates are 0, and only the turn about z exists.
-struct RigidBody {
-  V3 x = V3::Zero(), v = V3::Zero(), l = V3::Zero();  ///< centre of mass, its velocity, angular momentum
-  M3 r = M3::Identity();
-  V3 center = V3::Zero();  ///< of mass, in the body's frame
-  M3 inertia = M3::Zero(), inverse = M3::Zero();  ///< in the body's frame
-  double mass = 1, inverse_mass = 1, reach = 0;
-  bool turns = false;
-
-  M3 world_inverse() const { return r * inverse * r.transpose(); }
-  V3 w() const { return turns ? V3(world_inverse() * l) : V3(V3::Zero()); }
-  V3 velocity_at(const V3& point) const { return v + w().cross(point - x); }
-  void push(const V3& impulse, const V3& point) {
-    v += impulse * inverse_mass;
-    if (turns) l += (point - x).cross(impulse);
-  }
-};
-
-struct Contact {
-  int first, second;
-  V3 point, normal;
-  double depth;
-  double restitution, friction;
-  double fall_left;         ///< of the speed of approach: what gravity adds in this step after a bounce
-  V3 impulse = V3::Zero();  ///< on the second body, in this step
-  double leaves = 0;        ///< how far the bodies move apart along the normal in this step
-  std::array<V3, 2> before;
-};
 
 class Simulation {
  public:
@@ -208,7 +179,6 @@ class Simulation {
 
   void find_contacts() {
     contacts_.clear();
-    resting_.assign(bodies_.size(), false);
     for (std::size_t i = 0; i < bodies_.size(); ++i)
       for (std::size_t j = i + 1; j < bodies_.size(); ++j) {
         if (!movable(bodies_[i]) && !movable(bodies_[j])) continue;
@@ -236,8 +206,8 @@ class Simulation {
     const Motion &a = *scene_.bodies[i].motion, &b = *scene_.bodies[j].motion;
     const double falls = (movable(bodies_[i]) ? 1 : 0) - (movable(bodies_[j]) ? 1 : 0), fall_left = falls * left_to_fall() * h_ * gravity_.dot(in_space(*r.normal));
     for (const ContactPoint& c : *r.contacts) {
-      Contact contact{static_cast<int>(i), static_cast<int>(j), in_space(AnyVector((c.point_a + c.point_b) / 2)), in_space(*r.normal), c.depth,
-                      std::max(a.restitution, b.restitution), std::sqrt(a.friction * b.friction), fall_left, V3::Zero(), 0, {bodies_[i].v, bodies_[j].v}};
+      Contact contact{static_cast<int>(i), static_cast<int>(j), in_space(AnyVector((c.point_a + c.point_b) / 2)), in_space(*r.normal).normalized(), c.depth,
+                      std::max(a.restitution, b.restitution), std::sqrt(a.friction * b.friction), fall_left, {bodies_[i].v, bodies_[j].v}};
       contacts_.push_back(contact);
       if (trace_)
         (*trace_)(world::ContactFound{time_, {contact.first, contact.second}, in_scene(contact.point), in_scene(contact.normal), contact.depth});
@@ -246,64 +216,16 @@ class Simulation {
 
   // --- Impulses ---------------------------------------------------------------------------------------------------------------
 
-  /// How the relative velocity at the contact changes by a unit impulse along a direction.
-  V3 change_by(const Contact& c, const V3& direction) const {
-    V3 change = V3::Zero();
-    for (const int i : {c.first, c.second}) {
-      const RigidBody& b = bodies_[static_cast<std::size_t>(i)];
-      change += b.inverse_mass * direction;
-      const V3 arm = c.point - b.x;
-      if (b.turns) change += (b.world_inverse() * arm.cross(direction)).cross(arm);
-    }
-    return change;
-  }
-
-  V3 relative_velocity(const Contact& c) const {
-    return bodies_[static_cast<std::size_t>(c.second)].velocity_at(c.point) - bodies_[static_cast<std::size_t>(c.first)].velocity_at(c.point);
-  }
-
-  void apply(Contact& c, const V3& impulse) {
-    bodies_[static_cast<std::size_t>(c.second)].push(impulse, c.point);
-    bodies_[static_cast<std::size_t>(c.first)].push(-impulse, c.point);
-    c.impulse += impulse;
-  }
-
   void apply_impulses() {
-    double speed = 0;
-    for (const RigidBody& b : bodies_) speed = std::max(speed, b.v.norm() + b.w().norm() * b.reach);
-    for (int round = 0; round < most_rounds; ++round) {
-      bool approached = false;
-      for (Contact& c : contacts_) approached |= push(c, 1e-12 * speed);
-      if (!approached) break;
-    }
+    Impulses impulses(bodies_, contacts_, gravity_.norm() * h_);
+    resting_ = impulses.run();
     for (Contact& c : contacts_) {
-      c.leaves = std::max(0.0, relative_velocity(c).dot(c.normal)) * h_;
+      c.leaves = std::max(0.0, impulses.relative_velocity(c).dot(c.normal)) * h_;
       if (!trace_ || c.impulse.isZero(0)) continue;
       const std::vector<AnyVector> before{in_scene(c.before[0]), in_scene(c.before[1])};
       const std::vector<AnyVector> after{in_scene(bodies_[static_cast<std::size_t>(c.first)].v), in_scene(bodies_[static_cast<std::size_t>(c.second)].v)};
       (*trace_)(world::ImpulseApplied{time_, {c.first, c.second}, in_scene(c.point), in_scene(c.normal), in_scene(c.impulse), before, after});
     }
-  }
-
-  /// True when the contact approached. The bounce turns back what was there before the rest of the fall: with u the speed of approach and r that
-  /// rest, u - r becomes -e (u - r), by an impulse of (1 + e) (u - r). Where that leaves them approaching there is none. Friction takes energy.
-  bool push(Contact& c, double least) {
-    const V3 u = relative_velocity(c);
-    const double approach = -u.dot(c.normal);
-    if (!(approach > least)) return false;
-    const bool resting = approach <= 2 * gravity_.norm() * h_;
-    const double bounced = resting ? 0 : (1 + c.restitution) * (approach - c.fall_left);
-    if (bounced <= approach) resting_[static_cast<std::size_t>(c.first)] = resting_[static_cast<std::size_t>(c.second)] = true;
-    apply(c, std::max(approach, bounced) / c.normal.dot(change_by(c, c.normal)) * c.normal);
-    if (!(c.friction > 0)) return true;
-    const V3 along = relative_velocity(c), slip = along - c.normal * c.normal.dot(along);
-    if (!(slip.norm() > 1e-14)) return true;
-    const V3 t = slip.normalized();
-    // Coulomb's cone holds for the whole of the step's impulse, not for each part of it.
-    const double pressed = c.impulse.dot(c.normal), rubbed = (c.impulse - c.normal * pressed).norm();
-    const double rub = std::min(slip.norm() / t.dot(change_by(c, t)), std::max(0.0, c.friction * pressed - rubbed));
-    apply(c, -rub * t);
-    return true;
   }
 
   /// Places alone: no velocity, hence no kinetic energy; and no more than is left once the bodies have moved, or every bounce would lift them.

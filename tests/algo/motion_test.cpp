@@ -314,6 +314,10 @@ TEST(Simulate, TheGallerysAnswers) {
   // The stack stands.
   const Result stack = end("sim-stack-of-five");
   for (std::size_t i = 1; i < 6; ++i) EXPECT_NEAR((*stack.bodies)[i].position[1], static_cast<double>(i) - 0.5, 0.02);
+  // Two stand, the third rolls on with two thirds of its speed.
+  const Result rolling = end("sim-roll-and-rest");
+  for (const std::size_t i : {1U, 2U}) EXPECT_LE((*rolling.bodies)[i].velocity.norm(), 1e-6);
+  EXPECT_NEAR((*rolling.bodies)[3].velocity[2], 1.6, 0.01);
   // Over flush tiles: the one slides to the end after one touch, the other catches on an inner edge.
   EXPECT_NEAR((*end("cast-ghost-cured").bodies)[0].position[0], 4, 1e-6);
   EXPECT_NEAR((*end("cast-ghost-mesh").bodies)[0].position[0], 2.5, 1e-6);

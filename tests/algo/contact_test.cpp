@@ -1,0 +1,147 @@
+// Contact points: how many, where, inside both bodies; and what stands or rolls on them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "recordings/check.h"
+#include "recordings/recording.h"
+#include "tests/support/random_scenes.h"
+
+namespace gjkdbg {
+namespace {
+
+constexpr double deep = 0.05;
+
+std::string placed(const std::string& shape, const std::string& position, const std::string& rotation = "", const std::string& more = "") {
+  return R"({"shape": )" + shape + R"(, "pose": {"position": )" + position + (rotation.empty() ? "" : R"(, "rotation": )" + rotation) + "}" + more + "}";
+}
+
+SceneFile scene_of(const std::string& query, const std::string& bodies) {
+  return parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 3, )" + query + R"(, "bodies": [)" + bodies + "]}", {});
+}
+
+/// The contact points of two bodies, which `check` finds right, from the second body's side; depths aside.
+std::vector<ContactPoint> contacts(const std::string& a, const std::string& b) {
+  const Recording recording = record(scene_of(R"("query": "contact")", a + ", " + b));
+  for (const Finding& f : check(recording)) ADD_FAILURE() << f.code << ": " << f.message;
+  return recording.result.contacts.value_or(std::vector<ContactPoint>());
+}
+
+/// On a table whose top is y = 0, by its edges of 1 along x and z.
+std::vector<ContactPoint> on_table(const std::string& shape, double x, double y, const std::string& rotation = "") {
+  return contacts(placed(R"({"type": "box", "half_extents": [1, 0.5, 1]})", "[0, -0.5, 0]"), placed(shape, "[" + std::to_string(x) + ", " + std::to_string(y) + ", 0]", rotation));
+}
+
+const std::string cylinder = R"({"type": "cylinder", "radius": 0.5, "half_height": 0.5})", cone = R"({"type": "cone", "radius": 0.5, "half_height": 0.5})",
+                  upside_down = R"({"axis": [0, 0, 1], "angle": 180})", lying = R"({"axis": [0, 0, 1], "angle": 90})";
+
+TEST(Contact, TheEndOfACylinderOrAConeStandsOnItsRim) {
+  for (const std::string& shape : {cylinder, cone}) {
+    const auto found = on_table(shape, 0, 0.5 - deep);
+    ASSERT_EQ(found.size(), 8U);
+    Eigen::Vector3d middle(0, 0, 0);
+    for (const ContactPoint& c : found) {
+      EXPECT_NEAR(std::hypot(c.point_b[0], c.point_b[2]), 0.5, 1e-12);
+      EXPECT_NEAR(c.depth, deep, 1e-12);
+      middle += c.point_b / 8;
+    }
+    EXPECT_LE(std::hypot(middle[0], middle[2]), 1e-12);
+  }
+}
+
+TEST(Contact, TheTablesEdgeCutsTheRim) {
+  const auto found = on_table(cylinder, 1.1, 0.5 - deep);  // the rim meets the edge x = 1 at z = +- sqrt(0.5^2 - 0.1^2)
+  double farthest = -1;
+  int at_edge = 0;
+  for (const ContactPoint& c : found) {
+    farthest = std::max(farthest, c.point_b[0]);
+    if (std::abs(c.point_b[0] - 1) < 1e-12 && std::abs(std::abs(c.point_b[2]) - std::sqrt(0.24)) < 1e-12) ++at_edge;
+  }
+  EXPECT_LE(farthest, 1 + 1e-12);
+  EXPECT_EQ(at_edge, 2);
+  EXPECT_GE(found.size(), 5U);
+}
+
+TEST(Contact, ABoxOnACylindersEndTouchesWhereTheirOutlinesMeet) {
+  // A plank across the end: no corner of it and no more than two of the rim's points above it, yet all four crossings.
+  const auto plank = contacts(placed(cylinder, "[0, -0.5, 0]"), placed(R"({"type": "box", "half_extents": [2, 0.1, 0.1]})", "[0, 0.05, 0]"));
+  const auto crossing = [](const ContactPoint& c) { return std::abs(std::abs(c.point_b[2]) - 0.1) < 1e-12 && std::abs(std::abs(c.point_b[0]) - std::sqrt(0.24)) < 1e-12; };
+  EXPECT_EQ(std::count_if(plank.begin(), plank.end(), crossing), 4);
+  // A small box well inside keeps its four corners; so does one on which the cylinder stands, by its outline alone.
+  const auto small = contacts(placed(cylinder, "[0, -0.5, 0]"), placed(R"({"type": "box", "half_extents": [0.1, 0.1, 0.1]})", "[0, 0.05, 0]"));
+  EXPECT_EQ(small.size(), 4U);
+  const auto under = contacts(placed(R"({"type": "box", "half_extents": [0.1, 0.1, 0.1]})", "[0, -0.1, 0]"), placed(cylinder, "[0, 0.45, 0]"));
+  EXPECT_EQ(under.size(), 4U);
+}
+
+TEST(Contact, TwoEndsShareALens) {
+  const auto found = contacts(placed(cylinder, "[0, -0.5, 0]"), placed(cone, "[0.6, 0.45, 0]"));  // circles of 0.5 whose centres are 0.6 apart cross at (0.3, +- 0.4)
+  const auto crossing = [](const ContactPoint& c) { return std::abs(c.point_b[0] - 0.3) < 1e-9 && std::abs(std::abs(c.point_b[2]) - 0.4) < 1e-9; };
+  EXPECT_EQ(std::count_if(found.begin(), found.end(), crossing), 2);
+  EXPECT_GE(found.size(), 4U);
+}
+
+TEST(Contact, LyingBodiesTouchAlongALineAndTiltedOnesAtAPoint) {
+  const auto line = on_table(cylinder, 0, 0.5 - deep, lying);
+  ASSERT_EQ(line.size(), 2U);
+  EXPECT_NEAR(std::abs(line[0].point_b[0] - line[1].point_b[0]), 1, 1e-12);
+  // A cone on its side, which is sqrt(0.5^2 + 1^2) long.
+  const auto side = on_table(cone, 0, 0.2, R"({"axis": [0, 0, 1], "angle": 116.56505117707799})");
+  ASSERT_EQ(side.size(), 2U);
+  EXPECT_NEAR((side[0].point_b - side[1].point_b).norm(), std::sqrt(1.25), 1e-9);
+  EXPECT_EQ(on_table(cylinder, 0, 0.65, R"({"axis": [0, 0, 1], "angle": 30})").size(), 1U);
+  EXPECT_EQ(on_table(cone, 0, 0.45, upside_down).size(), 1U);
+}
+
+/// Cylinders, cones and boxes, faces flat on one another or not, with margins: every point lies in both bodies and no deeper than they are (`check`).
+TEST(Contact, EveryPointLiesInBothBodies) {
+  RandomScenes random(7);
+  const std::string shapes[] = {cylinder, cone, R"({"type": "box", "half_extents": [0.4, 0.5, 0.3]})", R"({"type": "capsule", "radius": 0.2, "half_height": 0.5})",
+                                R"({"type": "cylinder", "radius": 0.3, "half_height": 0.1, "margin": 0.1})"};
+  int several = 0;
+  for (int k = 0; k < pairs_asked(1500) && !testing::Test::HasFailure(); ++k) {
+    const auto body = [&](const std::string& position) {
+      const double angle = k % 3 == 0 ? 90 * random.integer(0, 3) : k % 3 == 1 ? random.uniform(-1e-3, 1e-3) : random.uniform(0, 360);
+      const std::string axis = k % 3 == 0 ? random.integer(0, 1) ? "[1, 0, 0]" : "[0, 0, 1]" : "[" + std::to_string(random.uniform(0.1, 1)) + ", 0.3, " + std::to_string(random.uniform(-1, 1)) + "]";
+      return placed(shapes[random.integer(0, 4)], position, R"({"axis": )" + axis + R"(, "angle": )" + std::to_string(angle) + "}");
+    };
+    const std::string to = "[" + std::to_string(random.uniform(-0.6, 0.6)) + ", " + std::to_string(random.uniform(0.3, 0.9)) + ", " + std::to_string(random.uniform(-0.6, 0.6)) + "]";
+    const std::string a = body("[0, 0, 0]"), b = body(to);
+    SCOPED_TRACE(a + ", " + b);
+    several += contacts(a, b).size() > 2;
+  }
+  EXPECT_GT(several, pairs_asked(1500) / 20);
+}
+
+std::vector<FinalState> after(double seconds, const std::string& shape, const std::string& position, const std::string& rotation, const std::string& velocity = "[0, 0, 0]") {
+  const std::string rough = R"(, "friction": 0.5, "restitution": 0)";
+  const auto scene = scene_of(R"("query": "simulate", "gravity": [0, -9.81, 0], "time_step": 0.01, "steps": )" + std::to_string(std::lround(100 * seconds)),
+                              placed(R"({"type": "box", "half_extents": [9, 0.5, 9]})", "[0, -0.5, 0]", "", R"(, "static": true)" + rough) + ", " +
+                                  placed(shape, position, rotation, R"(, "velocity": )" + velocity + rough));
+  return record(scene).result.bodies.value();
+}
+
+/// Pushing one corner lifts another one: what comes to rest rests, without a tremble.
+TEST(Contact, WhatStandsStandsStill) {
+  for (const std::string& shape : {cylinder, cone, std::string(R"({"type": "box", "half_extents": [0.5, 0.5, 0.5]})")}) {
+    const FinalState upright = after(3, shape, "[0, 0.6, 0]", R"({"axis": [0, 1, 0], "angle": 20})")[1];
+    EXPECT_LE(std::hypot(upright.position[0], upright.position[2]), 1e-9) << shape;
+    const FinalState tilted = after(6, shape, "[0, 0.8, 0]", R"({"axis": [1, 0, 0.3], "angle": 12})")[1];
+    for (const FinalState& s : {upright, tilted}) {
+      EXPECT_NEAR(s.position[1], 0.5, 2e-3) << shape;
+      EXPECT_LE(s.velocity.norm() + AnyVector(Eigen::Map<const Eigen::Vector3d>(s.angular_velocity.data())).norm(), 1e-6) << shape;
+    }
+  }
+}
+
+/// A cylinder that slides until it rolls keeps two thirds of its speed: angular momentum about the line of contact is kept, m v r = (m r^2 + m r^2 / 2) w.
+TEST(Contact, ACylinderThatSlidesComesToRollStraight) {
+  const FinalState s = after(2, cylinder, "[0, 0.5, -2]", lying, "[0, 0, 1.5]")[1];
+  EXPECT_NEAR(s.velocity[2], 1, 0.01);
+  EXPECT_NEAR(s.angular_velocity[0], s.velocity[2] / 0.5, 0.02);
+  EXPECT_LE(std::abs(s.velocity[0]) + std::abs(s.position[0]), 1e-6) << "it does not turn aside";
+}
+
+}  // namespace
+}  // namespace gjkdbg
