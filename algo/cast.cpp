@@ -325,7 +325,7 @@ class Caster {
   std::vector<FinalState> states() const {
     std::vector<FinalState> list;
     for (const Body& b : bodies_)
-      list.push_back({b.pose.position, orientation_of(b.pose.matrix), b.motion->velocity, {b.motion->angular_velocity.begin(), b.motion->angular_velocity.end()}});
+      list.push_back({b.pose.position, orientation_of(b.pose.matrix), b.motion->velocity, in_degrees(b.motion->angular_velocity)});
     return list;
   }
 

@@ -20,6 +20,12 @@ AnyMatrix rotation_by(const AnyVector& angular_velocity, double time, int dimens
   return Eigen::AngleAxisd(w.norm() * time, w.stableNormalized()).toRotationMatrix();
 }
 
+std::vector<double> in_degrees(const AnyVector& radians) {
+  std::vector<double> degrees;
+  for (const double x : radians) degrees.push_back(x * 180 / M_PI);
+  return degrees;
+}
+
 std::vector<double> orientation_of(const AnyMatrix& rotation) {
   if (rotation.rows() == 1) return {1, 0, 0, 0};
   if (rotation.rows() == 2) {

@@ -17,6 +17,8 @@ AnyMatrix rotation_by(const AnyVector& angular_velocity, double time, int dimens
 
 /// The unit quaternion w x y z of a rotation; in the plane about z.
 std::vector<double> orientation_of(const AnyMatrix& rotation);
+/// An angular velocity as states tell it.
+std::vector<double> in_degrees(const AnyVector& radians);
 
 /// The body moved on by its velocities for a time, turning about its pose's position. A body without motion stays.
 Body moved(const Body& body, double time, int dimension);

@@ -46,7 +46,7 @@ struct CastEnded {
   }
 };
 
-/// Where a body is and how it moves. `orientation`: quaternion w x y z (in the plane about z). `angular_velocity`: radians, 3 numbers
+/// Where a body is and how it moves. `orientation`: quaternion w x y z (in the plane about z). `angular_velocity`: degrees a unit of time, 3 numbers
 /// (in the plane one, on a line none).
 template <class V, class Store>
 struct BodyState {

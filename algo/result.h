@@ -11,7 +11,7 @@
 
 namespace gjkdbg {
 
-/// A body at the end of a cast or a simulation; units as in BodyState of algo/trace.h.
+/// A body at the end of a cast or a simulation; units as in BodyState of algo/motion_events.h.
 struct FinalState {
   AnyVector position;
   std::vector<double> orientation;

@@ -112,7 +112,7 @@ void check_motion(const Settings& s, const Scene& scene) {
     const bool turns = body.motion && body.motion->angular_velocity.size() > 0 && !body.motion->angular_velocity.isZero(0);
     if (s.name == MethodName::ray_cast && turns) refuse("method \"ray-cast\" takes bodies that do not turn; body \"" + body.name + "\" does", "/method/name");
     if (std::holds_alternative<Mesh>(body.shape.geometry) && scene.query == Query::simulate && body.motion && !body.motion->is_static)
-      refuse("a mesh must be static: body \"" + body.name + "\" moves", "/query");
+      throw Error("unsupported-method", "a mesh must be static, and this one moves", "/bodies/" + std::to_string(&body - scene.bodies.data()) + "/static");
   }
 }
 

@@ -264,10 +264,8 @@ class Simulation {
       const Body at = placed(i);
       const RigidBody& b = bodies_[i];
       const V3 w = b.w();
-      std::vector<double> spin;
-      if (dimension_ == 3) spin = {w[0], w[1], w[2]};
-      if (dimension_ == 2) spin = {w[2]};
-      list.push_back({at.pose.position, orientation_of(at.pose.matrix), in_scene(V3(b.v - w.cross(b.r * b.center))), spin});
+      const AnyVector spin = dimension_ == 3 ? AnyVector(w) : AnyVector(w.tail(dimension_ == 2 ? 1 : 0));
+      list.push_back({at.pose.position, orientation_of(at.pose.matrix), in_scene(V3(b.v - w.cross(b.r * b.center))), in_degrees(spin)});
     }
     return list;
   }

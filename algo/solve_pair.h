@@ -297,6 +297,7 @@ class PairSolver {
 
   void sat_witnesses(const SatResult<D, S>& found, const std::optional<SatWitnesses<D, S>>& known, Query query) {
     if (query == Query::distance) return inside_both(std::max(S(0), difference_.rounding_floor() - found.depth));
+    if (settings_.penetration == Penetration::none) return overlap_only(static_cast<double>(difference_.rounding_floor()) - radius_ + rounding());
     V a, b;
     if (known) {
       a = known->a, b = known->b;

@@ -134,11 +134,25 @@ void CheckContext::find(const char* code, const std::string& message, Finding::S
   findings_.push_back({step, severity, code, message});
 }
 
+void CheckContext::suspect(const char* code, const std::string& message) {
+  if (!suspicion_) suspicion_ = Finding{step, Finding::Severity::error, code, message};
+}
+
 std::vector<Finding> CheckContext::take() {
   std::stable_sort(findings_.begin(), findings_.end(), [](const Finding& x, const Finding& y) { return x.step < y.step; });
-  const auto root = std::find_if(findings_.begin(), findings_.end(), [](const Finding& f) { return f.severity == Finding::Severity::error; });
-  if (root != findings_.end())
-    for (auto f = root + 1; f != findings_.end(); ++f) f->message = "Follows from step " + std::to_string(root->step) + ", probably. " + f->message;
+  const auto is_error = [](const Finding& f) { return f.severity == Finding::Severity::error; };
+  auto root = std::find_if(findings_.begin(), findings_.end(), is_error);
+  if (root == findings_.end()) return std::move(findings_);
+  static const std::set<std::string_view> consequences{"wrong-witness", "wrong-normal",  "wrong-distance",  "wrong-depth", "wrong-answer", "stopped-early", "origin-not-enclosed", "unjustified-separation",
+                                                       "cycle",         "no-progress",   "support-limit",   "timeout",     "crash",        "direction-away-from-origin"};
+  if (suspicion_ && suspicion_->step < root->step && consequences.contains(root->code) && !seen_.contains(suspicion_->code)) {
+    findings_.insert(root, *suspicion_);
+    std::stable_sort(findings_.begin(), findings_.end(), [](const Finding& x, const Finding& y) { return x.step < y.step; });
+    root = std::find_if(findings_.begin(), findings_.end(), is_error);
+  }
+  for (auto f = findings_.begin(); f != root; ++f)
+    if (f->step < root->step && f->code == std::string_view("direction-not-perpendicular")) root->message += " It may come of the direction of step " + std::to_string(f->step) + ".";
+  for (auto f = root + 1; f != findings_.end(); ++f) f->message = "Follows from step " + std::to_string(root->step) + ", probably. " + f->message;
   return std::move(findings_);
 }
 
@@ -156,8 +170,8 @@ bool CheckContext::check_direction(const AnyVector& d) {
     return false;
   }
   if (d.isZero(0)) {
-    find("zero-direction", "The search direction is zero. The usual cause is the origin lying on the simplex, where the triple product vanishes, or two centres that coincide at the start: accept the "
-                           "first as touching, or take any perpendicular; start along any axis.");
+    find("zero-direction", "The search direction is zero. The usual cause is the origin lying on the simplex, where the triple product vanishes, or two centres that coincide at the start: the "
+                           "first is an overlap (touching, where no more is asked; for the depth go on across the simplex, along any perpendicular); for the second start along any axis.");
     return false;
   }
   return true;
@@ -220,8 +234,10 @@ struct Walk {
   void operator()(const recorded::ImpulseApplied&) {}
   /// What `run` noted when a solver failed, or named what it had not been given.
   void operator()(const recorded::Warning& e) {
-    for (const char* code : {"timeout", "crash", "bad-message", "support-limit", "no-result", "unknown-vertex"})
+    for (const char* code : {"timeout", "crash", "bad-message", "support-limit", "no-result", "unknown-vertex", "wrong-face"})
       if (e.code == code) c.find(code, e.message);
+    for (const char* code : {"unknown-field", "direction-not-asked"})
+      if (e.code == code) c.find(code, e.message, Finding::Severity::warning);
   }
 };
 
@@ -247,7 +263,7 @@ std::vector<Finding> check(const Recording& recording) {
     record.motion();
     return context.take();
   }
-  if (recording.result.status != "aborted") check_result(context, walk.best_plane), record.result();
+  if (recording.result.status != "aborted" || !foreign(recording)) check_result(context, walk.best_plane), record.result();
   check_need(context);
   return context.take();
 }

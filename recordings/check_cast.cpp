@@ -223,9 +223,9 @@ struct CastCheck {
   /// Nothing but their own spin turns the bodies of a cast.
   void turned(std::size_t i, const std::vector<double>& orientation, const std::vector<double>& spin, const Body& body, double time) const {
     const std::string who = "Body " + std::to_string(i) + " at time " + text_of(time) + " ";
-    const AnyVector& own = body.motion->angular_velocity;  // empty: none
+    const std::vector<double> own = in_degrees(body.motion->angular_velocity);  // empty: none
     bool same_spin = spin.size() == (scene.dimension == 3 ? 3u : scene.dimension == 2 ? 1u : 0u);
-    for (std::size_t k = 0; same_spin && k < spin.size(); ++k) same_spin = std::abs(spin[k] - (own.size() > 0 ? own[static_cast<Eigen::Index>(k)] : 0)) <= 1e-9 * (1 + std::abs(spin[k]));
+    for (std::size_t k = 0; same_spin && k < spin.size(); ++k) same_spin = std::abs(spin[k] - (own.empty() ? 0 : own[k])) <= 1e-9 * (1 + std::abs(spin[k]));
     if (!same_spin) c.find("wrong-state", who + "does not have the angular velocity of the scene.");
     Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
     if (orientation.size() == 4) q = Eigen::Quaterniond(orientation[0], orientation[1], orientation[2], orientation[3]);

@@ -62,6 +62,8 @@ class CheckContext {
   double answer_tolerance();
 
   void find(const char* code, const std::string& message, Finding::Severity severity = Finding::Severity::error);
+  /// What is harmless by itself, but the likely cause where an answer is wrong later on. The first counts.
+  void suspect(const char* code, const std::string& message);
   std::vector<Finding> take();
 
   /// The position of a vertex; a finding, and nothing, when it was never handed out.
@@ -76,6 +78,7 @@ class CheckContext {
   std::optional<Result> reference_;
   std::vector<Finding> findings_;
   std::set<std::string> seen_;
+  std::optional<Finding> suspicion_;
 };
 
 /// How far a point lies outside a body, surely.
@@ -96,6 +99,7 @@ class TraceCheck {
   void incomplete(const std::string& message);
   void given(int number, bool is_new, const char* what);
   bool belong_together(const AnyVector& a, const AnyVector& b, const AnyVector& w);
+  std::string support_hint(std::size_t body, const AnyVector& direction, const AnyVector& point) const;
   double far_out(const AnyVector& a, const AnyVector& b) const;
   void bounds(double lower, double upper);
   void along(const AnyVector& normal, double distance);
@@ -142,6 +146,7 @@ class GjkCheck {
   void check_towards_origin(const AnyVector& direction);
   void check_progress(const recorded::SupportQueried& e);
   void check_region(const recorded::SimplexReduced& e);
+  void check_no_more_kept(const std::vector<int>& region, const std::vector<AnyVector>& kept);
   void check_closest(const recorded::SimplexReduced& e);
   void check_cycle(const std::vector<int>& region);
   void check_repetition(const AnyVector& direction);
@@ -183,7 +188,11 @@ class EpaCheck {
   bool check_normal(int number, const AnyVector& given);
   void check_plane(int number, const AnyVector& normal, double distance);
   void check_horizon(const recorded::PolytopeGrown& e);
-  void check_closed();
+  void check_gain(int newest);
+  void tell_no_gain();
+  void check_removed(const recorded::PolytopeGrown& e, const std::map<int, Face>& before);
+  void check_kept(int newest);
+  bool check_closed();
   void check_convex(std::optional<int> newest);
   void check_origin();
   AnyVector centre();
@@ -192,6 +201,11 @@ class EpaCheck {
   std::map<int, Face> faces_;
   std::optional<int> chosen_;
   AnyVector chosen_normal_;  ///< as recorded; empty after the query along it
+  struct NoGain {
+    std::size_t step;
+    int vertex, face;
+  };
+  std::optional<NoGain> no_gain_;  ///< the last time the polytope grew by a vertex no farther out than the face chosen
 };
 
 /// What our own recordings say twice: see check_record.cpp.

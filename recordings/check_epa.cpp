@@ -59,6 +59,7 @@ void EpaCheck::add(const recorded::Face& f) {
     if (c_.dimension > 1 && area <= 1e-7 * scale && supports(f, w)) {
       face.normal = f.normal, face.distance = f.distance;  // thin, so that its corners do not tell its normal; the given one is right
     } else if (c_.dimension > 1 && area <= 1e-15 * scale) {
+      tell_no_gain();
       c_.find("zero-area-face", "The face of vertices " + std::to_string(f.vertices[0]) + ", " + std::to_string(f.vertices[1]) + ", … has no area, so it has no normal. The usual cause is a new vertex in line with an edge of the horizon, or one "
                                 "that the polytope already had: stop, or remove the face behind that edge too.");
       face.usable = false;
@@ -100,7 +101,7 @@ void EpaCheck::check_plane(int number, const AnyVector& normal, double distance)
   if (!normal.allFinite() || !std::isfinite(distance)) return;
   if (!c_.inferred && std::abs(normal.norm() - 1) > 1e-4)  // a solver may leave its normals as long as they come
     c_.find("wrong-face", "The normal " + text_of(normal) + " of " + face_name(number) + " has length " + text_of(normal.norm()) + " instead of 1. Expected is " + text_of(faces_[number].normal) + ".");
-  if (normal.isZero(0)) return;
+  if (normal.isZero(0)) return c_.find("wrong-face", "The normal of " + face_name(number) + " is zero. Expected is " + text_of(faces_[number].normal) + ".");
   const AnyVector n = normal.stableNormalized();
   for (const int v : faces_[number].vertices) {
     const AnyVector* w = c_.vertex(v);
@@ -141,7 +142,7 @@ void EpaCheck::check_horizon(const recorded::PolytopeGrown& e) {
 }
 
 void EpaCheck::operator()(const recorded::PolytopeSeeded& e) {
-  faces_.clear(), chosen_.reset();
+  faces_.clear(), chosen_.reset(), no_gain_.reset();
   for (const int v : e.vertices) c_.vertex(v);
   for (const auto& f : e.faces) add(f);
   orient(e.faces);
@@ -153,16 +154,41 @@ void EpaCheck::operator()(const recorded::PolytopeSeeded& e) {
 void EpaCheck::operator()(const recorded::PolytopeGrown& e) {
   if (!c_.vertex(e.vertex)) return;
   check_horizon(e);
+  check_gain(e.vertex);
+  const std::map<int, Face> before = faces_;
   for (const int f : e.removed) faces_.erase(f);
   for (const auto& f : e.added) add(f);
   orient(e.added);
-  check_closed();
+  check_kept(e.vertex);
+  if (check_closed()) check_removed(e, before);  // a face that is lost leaves a hole
   check_convex(e.vertex);
   check_origin();
 }
 
+/// The newest vertex lies beyond the face it was asked for across, or nothing was gained. (In a motion of ours a pair may be so small that all is rounding.)
+void EpaCheck::check_gain(int newest) {
+  if (!c_.inferred) return;
+  const auto face = faces_.find(chosen_.value_or(-1));
+  if (face == faces_.end() || !face->second.usable) return;
+  const double beyond = face->second.normal.dot(*c_.vertex(newest)) - face->second.distance;
+  if (std::abs(beyond) <= 4 * std::numeric_limits<double>::epsilon() * c_.size) no_gain_ = NoGain{c_.step, newest, *chosen_};
+}
+
+/// The newest vertex sees every face that went.
+void EpaCheck::check_removed(const recorded::PolytopeGrown& e, const std::map<int, Face>& before) {
+  for (const int number : e.removed) {
+    const auto found = before.find(number);
+    if (found == before.end() || !found->second.usable) continue;
+    const double behind = found->second.distance - found->second.normal.dot(*c_.vertex(e.vertex));
+    if (behind <= std::max(1e-6 * c_.size, c_.tolerance) + found->second.uncertain) continue;
+    c_.find("hidden-face-removed", "Vertex " + std::to_string(e.vertex) + " lies " + text_of(behind) + " behind " + face_name(number) + ", which was removed all the same: it does not see it. Faces with normal . w > distance must go, and no others. "
+                                   "The usual cause is comparing normal . w with zero instead of with the face's own distance.");
+    return;
+  }
+}
+
 /// Every edge joins exactly two faces (2D: every vertex two edges; 1D: two ends).
-void EpaCheck::check_closed() {
+bool EpaCheck::check_closed() {
   std::map<std::array<int, 2>, int> uses;
   for (const auto& [number, face] : faces_) {
     const std::size_t n = face.vertices.size();
@@ -176,11 +202,22 @@ void EpaCheck::check_closed() {
     if (count != 2) {
       c_.find("open-polytope", (c_.dimension == 3 ? "The edge " + std::to_string(edge[0]) + "-" + std::to_string(edge[1]) : "The vertex " + std::to_string(edge[0])) + " belongs to " + std::to_string(count) +
                                    (c_.dimension == 3 ? " faces" : " edges") + " instead of 2: the polytope is not closed. The usual cause is a horizon that was collected with shared edges left in, or with one lost.");
-      return;
+      return false;
     }
+  return true;
 }
 
-/// No vertex may lie beyond a face. A face the newest vertex sees should have gone.
+/// A face the newest vertex sees should have gone.
+void EpaCheck::check_kept(int newest) {
+  const AnyVector& w = *c_.vertex(newest);
+  for (const auto& [number, face] : faces_) {
+    if (!face.usable || face.normal.dot(w) - face.distance <= std::max(1e-6 * c_.size, c_.tolerance) + face.uncertain) continue;
+    c_.find("visible-face-kept", "Vertex " + std::to_string(newest) + " sees " + face_name(number) + " from " + text_of(face.normal.dot(w) - face.distance) + " beyond it, but the face was kept. Every face with normal . w > distance must go before the horizon is closed.");
+    return;
+  }
+}
+
+/// No vertex may lie beyond a face; of the newest one `check_kept` has told.
 void EpaCheck::check_convex(std::optional<int> newest) {
   std::set<int> used;
   for (const auto& [number, face] : faces_) used.insert(face.vertices.begin(), face.vertices.end());
@@ -189,13 +226,10 @@ void EpaCheck::check_convex(std::optional<int> newest) {
     if (!face.usable) continue;
     for (const int v : used) {
       const auto found = c_.vertices.find(v);
-      if (found == c_.vertices.end()) continue;
+      if (found == c_.vertices.end() || newest == v) continue;
       const double beyond = face.normal.dot(found->second) - face.distance;
       if (beyond <= limit + face.uncertain) continue;
-      if (newest == v)
-        c_.find("visible-face-kept", "Vertex " + std::to_string(v) + " sees " + face_name(number) + " from " + text_of(beyond) + " beyond it, but the face was kept. Every face with normal . w > distance must go before the horizon is closed.");
-      else
-        c_.find("non-convex-polytope", "Vertex " + std::to_string(v) + " lies " + text_of(beyond) + " beyond " + face_name(number) + ": the polytope is not convex. The usual cause is splitting only the nearest face instead of removing every face the new vertex sees.");
+      c_.find("non-convex-polytope", "Vertex " + std::to_string(v) + " lies " + text_of(beyond) + " beyond " + face_name(number) + ": the polytope is not convex. The usual cause is splitting only the nearest face instead of removing every face the new vertex sees, or removing others as well.");
       return;
     }
   }
@@ -209,18 +243,32 @@ void EpaCheck::check_origin() {
     }
 }
 
-/// After a face is chosen, the support is asked for across it. A solver may ask as it likes.
+/// Who grows the polytope once more and then ends has lost nothing by it.
+void EpaCheck::tell_no_gain() {
+  if (!no_gain_) return;
+  const std::size_t now = std::exchange(c_.step, no_gain_->step);
+  c_.find("no-progress", "Vertex " + std::to_string(no_gain_->vertex) + " lies no farther out than " + face_name(no_gain_->face) + ", across which it was asked for: the face is part of the boundary, and the search was over. It grows the polytope all the same. "
+                           "Stop when normal . w is no more than the face's distance and a tolerance.");
+  c_.step = now;
+  no_gain_.reset();
+}
+
+/// After a face is chosen, the support is asked for across it. A solver may ask as it likes, but not along the way back.
 void EpaCheck::operator()(const recorded::SupportQueried& e) {
   const AnyVector n = std::exchange(chosen_normal_, AnyVector());
-  if (e.phase != Phase::epa || c_.inferred || n.size() == 0 || n.isZero(0) || !n.allFinite()) return;
-  if (const AnyVector d = e.direction.stableNormalized(); (d - n.stableNormalized()).norm() > 1e-4)
+  tell_no_gain();
+  if (e.phase != Phase::epa || n.size() == 0 || n.isZero(0) || !n.allFinite()) return;
+  const AnyVector d = e.direction.stableNormalized(), across = n.stableNormalized();
+  if (d.dot(across) < -0.999)
+    c_.find("direction-away-from-origin", "The direction " + text_of(e.direction) + " leads from the face chosen back into the polytope: expected is the face's normal " + text_of(n) + ", away from the origin. The usual cause is a minus sign that belongs to GJK's direction.");
+  else if (!c_.inferred && (d - across).norm() > 1e-4)
     c_.find("direction-not-perpendicular", "The direction " + text_of(e.direction) + " is not the normal of the face chosen, " + text_of(n) + ".", Finding::Severity::warning);
 }
 
 void EpaCheck::operator()(const recorded::FaceChosen& e) {
   chosen_ = e.face, chosen_normal_ = e.normal;
   const auto found = faces_.find(e.face);
-  if (found == faces_.end() && !faces_.empty())
+  if (found == faces_.end() && (!faces_.empty() || !c_.inferred))
     c_.find("wrong-face", face_name(e.face) + " was chosen, but the polytope has none of this number: it was removed, or never there.");
   if (found == faces_.end() || !found->second.usable) return;
   const Face& face = found->second;

@@ -38,7 +38,8 @@ void GjkCheck::operator()(const recorded::GjkBegan& e) {
 void GjkCheck::check_towards_origin(const AnyVector& direction) {
   const std::vector<AnyVector> w = points(simplex_);
   if (w.empty() || !pending_.empty() || static_cast<int>(w.size()) > c_.dimension) return;
-  const AnyVector v = nearest_point(w).v;
+  const NearestPoint nearest = nearest_point(w);
+  const AnyVector& v = nearest.v;
   if (v.norm() <= c_.tolerance) return;
   const AnyVector d = direction.stableNormalized();
   // Any point of the feature's plane will do as "the simplex": in Muratori's form the feature may not be the nearest one.
@@ -52,8 +53,8 @@ void GjkCheck::check_towards_origin(const AnyVector& direction) {
     return;
   }
   double worst = 0;
-  for (std::size_t i = 1; i < w.size(); ++i) {
-    const AnyVector edge = w[i] - w[0];
+  for (const int i : nearest.subset) {
+    const AnyVector edge = w[static_cast<std::size_t>(i)] - w[static_cast<std::size_t>(nearest.subset[0])];
     if (edge.norm() > c_.tolerance) worst = std::max(worst, std::abs(d.dot(edge)) / edge.norm());
   }
   // The nearest point is no more exact than its vertices are.
@@ -61,7 +62,7 @@ void GjkCheck::check_towards_origin(const AnyVector& direction) {
   const double rounding = single ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon();
   if (worst > std::max(single ? 1e-2 : 1e-4, 64 * rounding * c_.size / v.norm()))
     c_.find("direction-not-perpendicular", "The direction " + text_of(direction) + " is not perpendicular to the feature that was kept (cosine with an edge " + text_of(worst) + "), though it leads towards the origin. Expected is " +
-                                               text_of(AnyVector(-v)) + " or a multiple. This costs iterations, not the answer.",
+                                               text_of(AnyVector(-v)) + " or a multiple. Where all else is right this costs iterations, not the answer.",
             Finding::Severity::warning);
 }
 
@@ -144,11 +145,34 @@ void GjkCheck::check_region(const recorded::SimplexReduced& e) {
   if (kept.empty() || all.empty() || all.size() > 6) return;
   const NearestPoint best = nearest_point(all);
   const AnyVector v = nearest_point(kept).v;
-  if (v.norm() <= best.v.norm() + c_.tolerance || heuristic_region(before, e.region, v)) return;
+  if (v.norm() <= best.v.norm() + c_.tolerance) return check_no_more_kept(e.region, kept);
+  if (heuristic_region(before, e.region, v)) return;
   std::vector<int> right;
   for (const int i : best.subset) right.push_back(before[static_cast<std::size_t>(i)]);
   c_.find("wrong-region", "Of " + list_of(before) + " the part " + list_of(e.region) + " was kept, whose nearest point is " + text_of(v.norm()) + " from the origin. The part " + list_of(right) + " comes as near as " +
                               text_of(best.v.norm()) + ". The usual cause is a region test with a flipped sign, or one made before the vertices were reordered.");
+}
+
+/// What was kept is the nearest part and nothing else: the point nearest the origin on the plane (line, space) of all that was kept is that of the part.
+/// Boolean GJK keeps what it knows the origin not to be behind; and where the answer is right all the same, no harm was done.
+void GjkCheck::check_no_more_kept(const std::vector<int>& region, const std::vector<AnyVector>& kept) {
+  const NearestPoint nearest = nearest_point(kept);
+  if (c_.recording.scene.scene.query == Query::intersect || nearest.subset.size() == kept.size() || nearest.v.norm() <= c_.tolerance) return;
+  AnyVector on_plane = kept[0];
+  std::vector<AnyVector> axes;
+  for (const AnyVector& p : kept) {
+    AnyVector axis = p - kept[0];
+    for (int twice = 0; twice < 2; ++twice)
+      for (const AnyVector& a : axes) axis -= a.dot(axis) * a;
+    if (axis.norm() <= 1e-6 * (p - kept[0]).norm() || axis.norm() <= c_.tolerance) continue;
+    axes.push_back(axis.normalized());
+    on_plane -= axes.back().dot(on_plane) * axes.back();
+  }
+  if (nearest.v.norm() - on_plane.norm() <= std::max(10 * c_.tolerance, 1e-6 * c_.size)) return;
+  std::vector<int> right, idle;
+  for (std::size_t i = 0; i < region.size(); ++i) (contains(nearest.subset, static_cast<int>(i)) ? right : idle).push_back(region[i]);
+  c_.suspect("wrong-region", "Of " + list_of(region) + ", which was kept, " + list_of(idle) + " has no part in the nearest point: it lies on " + list_of(right) + " alone, " + text_of(nearest.v.norm()) +
+                              " from the origin. Keep that and drop the rest: it takes the place of vertices still to come, and the search is led across a part that is not nearest. The usual cause is an edge or a vertex region that is not tested for.");
 }
 
 /// The weights make the nearest point of the vertices, and it is the nearest.
@@ -160,7 +184,8 @@ void GjkCheck::check_closest(const recorded::SimplexReduced& e) {
     return;
   }
   const double limit = std::max(c_.tolerance, 1e-7 * c_.size);
-  const double nearest = nearest_point(w).v.norm();
+  const AnyVector right = nearest_point(w).v;
+  const double nearest = right.norm();
   if (!e.barycentric.empty()) {
     AnyVector sum = AnyVector::Zero(c_.dimension);
     double total = 0, least = 0;
@@ -171,8 +196,13 @@ void GjkCheck::check_closest(const recorded::SimplexReduced& e) {
       return;
     }
   }
-  if (std::abs(e.closest.norm() - nearest) > limit)
-    c_.find("wrong-closest", "The nearest point of " + list_of(e.region) + " is given as " + text_of(e.closest) + ", " + text_of(e.closest.norm()) + " from the origin; it is " + text_of(nearest_point(w).v) + ", at " + text_of(nearest) + ".");
+  // A point off by x sideways is farther by only x^2 / (2 nearest).
+  const double off = (e.closest - right).norm(), farther = e.closest.norm() - nearest;
+  if (off <= std::max(limit, std::sqrt(2 * limit * (nearest + limit))) && std::abs(farther) <= limit) return;
+  const std::string given = "The nearest point of " + list_of(e.region) + " is given as " + text_of(e.closest) + ", " + text_of(e.closest.norm()) + " from the origin; it is " + text_of(right) + ", at " + text_of(nearest) + ".";
+  if ((e.closest + right).norm() <= limit) c_.find("wrong-closest", given + " That is the same point with its sign turned: is your w = b - a, or did you give the next direction?");
+  else if (farther < -limit) c_.find("wrong-closest", given + " What is nearer lies outside the simplex. The usual cause is weights that are not clamped, or a vertex or edge region that is not tested for.");
+  else c_.find("wrong-closest", given + " The usual cause is weights that belong to other vertices.");
 }
 
 /// Remembers simplices by where their vertices are.
@@ -226,18 +256,23 @@ void GjkCheck::operator()(const recorded::GjkEnded& e) {
   if (!reported_ || (e.status != GjkStatus::enclosed && e.status != GjkStatus::touching && e.status != GjkStatus::converged)) return;
   const std::vector<AnyVector> w = points(last);
   if (w.empty()) return;
-  const double v = nearest_point(w).v.norm();
+  const double v = nearest_point(w).v.norm(), limit = std::max(c_.tolerance, 1e-7 * c_.size);
+  // The vertices that came after the last reported simplex may have closed it.
+  std::vector<int> all = pending_;
+  all.insert(all.end(), last.begin(), last.end());
   if (e.status == GjkStatus::converged) {
     const double gap = v - best_plane_;
     const double claimed = v - c_.radius;
-    if (c_.has_supports && gap > c_.stop * std::max(v, c_.size) && std::abs(claimed - *c_.reference().signed_distance) > c_.answer_tolerance())
-      c_.find("stopped-early", "GJK ended with its bounds " + text_of(best_plane_ - c_.radius) + " and " + text_of(v - c_.radius) + " of the distance still " + text_of(gap) +
-                                   " apart: there is a nearer point. The usual cause is a tolerance compared with a squared length, or with a length that was not normalised.");
-  } else if (v > std::max(c_.tolerance, 1e-7 * c_.size)) {
-    // The vertices that came after the last reported simplex may have closed it.
-    std::vector<int> all = pending_;
-    all.insert(all.end(), last.begin(), last.end());
-    if (nearest_point(points(all)).v.norm() > std::max(c_.tolerance, 1e-7 * c_.size))
+    if (v <= limit || !c_.has_supports || gap <= c_.stop * std::max(v, c_.size) || std::abs(claimed - *c_.reference().signed_distance) <= c_.answer_tolerance()) return;
+    std::string cause = "The usual cause is a tolerance compared with a squared length, or with a length that was not normalised, or a limit on iterations taken for convergence.";
+    if (const NearestPoint best = nearest_point(points(all)); all.size() <= 6 && best.v.norm() < v - limit) {
+      std::vector<int> right;
+      for (const int i : best.subset) right.push_back(all[static_cast<std::size_t>(i)]);
+      cause = "Of " + list_of(pending_) + ", asked for since, nothing was kept, though the part " + list_of(right) + " comes as near as " + text_of(best.v.norm()) + ": look at how the simplex was reduced after that (and report it, too, if you give it up).";
+    }
+    c_.find("stopped-early", "GJK ended with its bounds " + text_of(best_plane_ - c_.radius) + " and " + text_of(v - c_.radius) + " of the distance still " + text_of(gap) + " apart: there is a nearer point. " + cause);
+  } else if (v > limit) {
+    if (nearest_point(points(all)).v.norm() > limit)
       c_.find("origin-not-enclosed", "Overlap is claimed from the simplex " + list_of(last) + ", but the origin lies " + text_of(v) + " outside it. The usual cause is a test against a face whose normal points the wrong way.");
   }
 }

@@ -127,6 +127,8 @@ void RecordCheck::judge(const recorded::GjkEnded& e) {
   if (e.status == GjkStatus::iteration_limit && e.iteration < c_.recording.settings.max_iterations)
     contradiction("GJK ended at its limit of " + std::to_string(c_.recording.settings.max_iterations) + " iterations, after " + std::to_string(e.iteration) + ".");
   if (e.status == GjkStatus::within_radius && e.upper_bound > c_.tolerance) contradiction("GJK ended with the cores nearer than the radii, but the upper bound is " + text_of(e.upper_bound) + ".");
+  const bool never = e.status == GjkStatus::aborted || (e.status == GjkStatus::rule_met && c_.recording.settings.stopping == Stopping::bounds) || (e.status == GjkStatus::within_radius && c_.radius == 0);
+  if (ours_ && never) contradiction("GJK ended as \"" + status + "\", as it cannot in this scene by this method.");
   same_bounds("GJK's", e.lower_bound, e.upper_bound);
 }
 
@@ -301,6 +303,7 @@ void RecordCheck::motion() {
 std::string RecordCheck::not_as_asked() const {
   const Result& r = c_.recording.result;
   const Query query = c_.recording.scene.scene.query;
+  if (r.time || r.touching_at || r.pair || r.bodies || r.energy) return "holds what only motions have";
   if (query == Query::intersect) return r.signed_distance || r.normal || r.witness_a || r.witness_b || r.contacts ? "holds more than yes or no" : "";
   if (r.contacts.has_value() != (query == Query::contact) && r.signed_distance) return r.contacts ? "holds contact points" : "has no contact points";
   if (!r.signed_distance) return r.intersecting && c_.recording.settings.penetration == Penetration::none ? "" : "has no signed_distance";

@@ -45,7 +45,16 @@ struct Judge {
     const double error = std::abs(*r.signed_distance - sd);
     if (error <= limit + (*right.upper_bound - *right.lower_bound)) return;
     if (only_distance && *right.signed_distance <= 0 && *r.signed_distance <= 0) return;  // a depth was not asked for, but is no error
-    c.find(sd > 0 ? "wrong-distance" : "wrong-depth", "signed_distance is " + text_of(*r.signed_distance) + ", expected " + text_of(sd) + " (certified between " + text_of(*right.lower_bound) + " and " + text_of(*right.upper_bound) + ").");
+    if (only_distance && sd == 0) return c.find("wrong-depth", "signed_distance is " + text_of(*r.signed_distance) + ", but the bodies overlap: a distance query's answer is 0.");
+    c.find(sd > 0 ? "wrong-distance" : "wrong-depth", "signed_distance is " + text_of(*r.signed_distance) + ", expected " + text_of(sd) + " (certified between " + text_of(*right.lower_bound) + " and " + text_of(*right.upper_bound) + ")." + distance_hint(*r.signed_distance, sd));
+  }
+
+  std::string distance_hint(double given, double sd) const {
+    const auto is = [&](double x) { return std::abs(given - x) <= limit + 1e-6 * std::abs(x); };
+    if (is(-sd)) return " That is the right length with its sign turned: apart is above zero, a depth below.";
+    if (is(sd * sd) || is(-sd * sd)) return " That is its square: a root has not been taken.";
+    if (c.radius > 0 && is(sd + c.radius)) return " That is the cores' distance: the radii around them, " + text_of(c.radius) + " together, have not been taken off.";
+    return "";
   }
 
   /// The result's own bounds hold its distance, and the right one.
@@ -87,16 +96,17 @@ struct Judge {
     const double slack = 10 * limit;
     const double out_a = r.witness_a ? outside(scene, 0, *r.witness_a) : 0, out_b = r.witness_b ? outside(scene, 1, *r.witness_b) : 0;
     if (out_a > slack || out_b > slack) {
-      const bool a = out_a > slack;
+      const bool a = out_a > slack, swapped = r.witness_a && r.witness_b && outside(scene, 0, *r.witness_b) <= slack && outside(scene, 1, *r.witness_a) <= slack;
       c.find("wrong-witness", std::string("witness_") + (a ? "a " : "b ") + text_of(a ? *r.witness_a : *r.witness_b) + " lies " + text_of(a ? out_a : out_b) + " outside its body. " +
                                    (portal ? "The origin does not project into MPR's last portal: its depth bounds the right one from above, but no points of both bodies lie that far apart along its normal."
+                                   : swapped ? "Each lies on the other body: they are swapped."
                                            : "The usual cause is weights that belong to other vertices, or to the wrong face."));
       return;
     }
     if (!r.witness_a || !r.witness_b || !r.normal || !r.signed_distance || (scene.query == Query::distance && r.intersecting)) return;
     const double off = (*r.witness_b - *r.witness_a - *r.signed_distance * *r.normal).norm();
     if (off > 10 * c.answer_tolerance())
-      c.find("wrong-witness", "witness_b - witness_a is " + text_of(AnyVector(*r.witness_b - *r.witness_a)) + ", but signed_distance * normal is " + text_of(AnyVector(*r.signed_distance * *r.normal)) + ": the points and the distance do not belong together.");
+      c.find("wrong-witness", "witness_b - witness_a is " + text_of(AnyVector(*r.witness_b - *r.witness_a)) + ", but signed_distance * normal is " + text_of(AnyVector(*r.signed_distance * *r.normal)) + ": the points and the distance do not belong together. The usual cause is weights of another part than the nearest: of a simplex that was not reduced to it, or of a face whose plane is the nearest while the point lies on a neighbour in the same plane.");
   }
 
   /// Points of the bodies as far behind one another as is said, and no farther than the bodies are deep.

@@ -43,6 +43,7 @@ struct SimulationCheck {
     if (b.orientation.size() == 4) m.rotation = Eigen::Quaterniond(b.orientation[0], b.orientation[1], b.orientation[2], b.orientation[3]).normalized().toRotationMatrix();
     if (b.angular_velocity.size() == 3) m.spin = V3(b.angular_velocity[0], b.angular_velocity[1], b.angular_velocity[2]);
     if (b.angular_velocity.size() == 1) m.spin = V3(0, 0, b.angular_velocity[0]);
+    m.spin *= M_PI / 180;
     const V3 arm = m.rotation * mass[i].center;
     m.place = in_space(b.position) + arm, m.velocity = in_space(b.velocity) + m.spin.cross(arm);
     return m;
@@ -113,9 +114,9 @@ struct SimulationCheck {
       if (now->bodies.size() != scene.bodies.size()) return c.find("wrong-state", "There are " + std::to_string(now->bodies.size()) + " bodies; the scene has " + std::to_string(scene.bodies.size()) + ".");
       const double time = states++ * motion.time_step;
       if (std::abs(now->time - time) > 1e-9 * (1 + time)) c.find("wrong-time", "State " + std::to_string(states - 1) + " is at time " + text_of(now->time) + ", expected " + text_of(time) + ".");
+      oriented(*now, before);
       sums(*now);
       if (before) advance(*before, *now, contacts, impulses, first_impulse), touches(*before, *now, touching);
-      else begins(*now);
       touched = !contacts.empty();
       contacts.clear(), impulses.clear(), touching.clear();
       before = now;
@@ -123,10 +124,25 @@ struct SimulationCheck {
     if (before) result(*before, states, touched);
   }
 
-  /// The first state is the scene's.
-  void begins(const recorded::State& state) {
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-      if ((state.bodies[i].position - scene.bodies[i].pose.position).norm() > 1e-9 * c.size + c.tolerance) c.find("wrong-state", "Body " + std::to_string(i) + " begins at " + text_of(state.bodies[i].position) + "; the scene has it at " + text_of(scene.bodies[i].pose.position) + ".");
+  /// Every body is turned by some quaternion of length 1, and what does not move stays as the scene has it.
+  void oriented(const recorded::State& state, const recorded::State* before) const {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      const std::vector<double>& q = state.bodies[i].orientation;
+      const std::string who = "Body " + std::to_string(i) + " at time " + text_of(state.time) + " ";
+      double squared = 0;
+      for (const double x : q) squared += x * x;
+      if (q.size() != 4 || std::abs(squared - 1) > 1e-6) return c.find("wrong-state", who + "has no orientation: that is a quaternion of length 1.");
+      const M3 own = moving(state, i).rotation;
+      const AnyMatrix first = own.topLeftCorner(scene.dimension, scene.dimension);
+      const bool fixed = !before || of(i).is_static;
+      if (fixed && (first - scene.bodies[i].pose.matrix).norm() > 1e-6) return c.find("wrong-state", who + "is not turned as in the scene, " + (before ? "though it is static." : "at the beginning."));
+      if (fixed && (state.bodies[i].position - scene.bodies[i].pose.position).norm() > 1e-9 * c.size + c.tolerance) return c.find("wrong-state", who + "is at " + text_of(state.bodies[i].position) + "; the scene has it at " + text_of(scene.bodies[i].pose.position) + ".");
+      if (fixed) continue;
+      // It turns at a speed between that before and that after the step, or one that a step of the torque-free motion comes through.
+      const Moving was = moving(*before, i), is = moving(state, i);
+      const double turned = Eigen::AngleAxisd(is.rotation * was.rotation.transpose()).angle(), most = 2 * motion.time_step * (was.spin.norm() + is.spin.norm()) + 1e-6;
+      if (turned > most) return c.find("wrong-state", who + "has turned by " + text_of(turned * 180 / M_PI) + " degrees in a step, faster than it turns before or after.");
+    }
   }
 
   /// Energy and momentum are what places and velocities make them.

@@ -96,7 +96,10 @@ bool TraceCheck::belong_together(const AnyVector& a, const AnyVector& b, const A
   if (!a.allFinite() || !b.allFinite() || !w.allFinite()) return false;
   const AnyVector difference = a - b;
   if ((difference - w).stableNorm() <= c_.tolerance + far_out(a, b)) return true;
-  c_.find("wrong-support", "w is " + text_of(w) + ", but a - b is " + text_of(difference) + ". The usual causes are a + b, and b asked for along d instead of -d.");
+  const AnyVector beside_sum = a + b - w, beside_turned = difference + w;
+  const double limit = c_.tolerance + far_out(a, b);
+  const bool sum = beside_sum.stableNorm() <= limit, turned = beside_turned.stableNorm() <= limit;
+  c_.find("wrong-support", "w is " + text_of(w) + ", but a - b is " + text_of(difference) + "." + (sum ? " What is given is a + b." : turned ? " What is given is b - a." : " The usual cause is a point of another query."));
   return false;
 }
 
@@ -107,6 +110,16 @@ double TraceCheck::far_out(const AnyVector& a, const AnyVector& b) const {
 
 void TraceCheck::judge(const recorded::VertexKept& e) { belong_together(e.a, e.b, e.w); }
 
+/// What a point that is not the farthest along a direction is instead.
+std::string TraceCheck::support_hint(std::size_t body, const AnyVector& direction, const AnyVector& point) const {
+  const AnyVector position = c_.recording.scene.scene.bodies[body].pose.position;
+  const auto farthest = [&](const AnyVector& d, const AnyVector& p) { return c_.short_of_support(body, d, p) <= c_.tolerance + far_out(p, position); };
+  const AnyVector back = -direction, moved = point + position;
+  if (farthest(back, point)) return " It is the farthest the other way: of A - B, A is asked along d and B along -d.";
+  if (!position.isZero(0) && farthest(direction, moved)) return " With the body's position added it is: a support is a point of the world.";
+  return " The usual causes are a support that is asked for in the body's own frame, and a direction that was not turned into it: by the rotation's transpose on the way in, by the rotation on the way out.";
+}
+
 void TraceCheck::judge(const recorded::SupportQueried& e) {
   if (!belong_together(e.a, e.b, e.w) || !c_.has_supports || !e.direction.allFinite() || e.direction.isZero(0)) return;
   const AnyVector d = e.direction.stableNormalized();
@@ -115,7 +128,7 @@ void TraceCheck::judge(const recorded::SupportQueried& e) {
     const double beyond = c_.short_of_support(first ? 0 : 1, first ? d : AnyVector(-d), point);
     if (beyond <= c_.tolerance + far_out(e.a, e.b)) continue;
     c_.find("wrong-support", std::string(first ? "a = " : "b = ") + text_of(point) + " is not the farthest point of body " + (first ? "0 along d" : "1 along -d") + ": it is off by " + text_of(beyond) + ", for d = " + text_of(e.direction) +
-                                 ". The usual causes are a support that is asked for in the body's own frame, and a direction that was not turned into it.");
+                                 "." + support_hint(first ? 0 : 1, first ? d : AnyVector(-d), point));
     return;
   }
 }
@@ -172,7 +185,7 @@ void TraceCheck::plane(const std::vector<int>& vertices, const AnyVector& normal
 
 void TraceCheck::judge(const recorded::GjkEnded& e) {
   bounds(e.lower_bound, e.upper_bound);
-  if (!c_.has_supports) return;
+  if (!c_.has_supports || c_.inferred) return;  // how a solver's run ended is its answer, and judged as that
   const double distance = *c_.reference().signed_distance, limit = c_.answer_tolerance();
   const bool apart = e.status == GjkStatus::separated, cores_apart = e.status == GjkStatus::converged;
   if ((apart && distance < -limit) || (cores_apart && distance < -limit - c_.radius))

@@ -52,8 +52,13 @@ void check_face(std::istream& words, std::size_t so_far, std::size_t in_all, con
 /// Line by line, what comes before a #; and without the mark some editors put before everything. A line that ends in \ goes on in the next:
 /// the statement is written as one, and as many empty lines follow it.
 std::string without_comments(std::istream& in) {
+  // Lines may end in \r alone, as on old systems.
+  std::string all(std::istreambuf_iterator<char>(in), {});
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i] == '\r' && (i + 1 == all.size() || all[i + 1] != '\n')) all[i] = '\n';
+  std::istringstream lines(all);
   std::string out, owed;
-  for (std::string line; std::getline(in, line);) {
+  for (std::string line; std::getline(lines, line);) {
     line.resize(std::min(line.size(), line.find('#')));
     line.resize(line.find_last_not_of(" \t\r") + 1);
     const bool goes_on = line.ends_with('\\');

@@ -11,14 +11,14 @@
 
 namespace gjkdbg {
 
-void print_findings(const std::vector<Finding>& findings, bool json) {
+void print_findings(const std::vector<Finding>& findings, bool json, std::ostream& out) {
   if (json) {
-    std::cout << findings_to_json(findings);
+    out << findings_to_json(findings);
     return;
   }
   for (const Finding& f : findings)
-    std::cout << "step " << f.step << ": " << (f.severity == Finding::Severity::error ? "error" : "warning") << ": " << f.code << "\n  " << f.message << "\n";
-  if (findings.empty()) std::cout << "no findings: every step holds\n";
+    out << "step " << f.step << ": " << (f.severity == Finding::Severity::error ? "error" : "warning") << ": " << f.code << "\n  " << f.message << "\n";
+  if (findings.empty()) out << "no findings: every step holds\n";
 }
 
 namespace {
@@ -29,7 +29,7 @@ struct Check {
 
   int run() const {
     const std::vector<Finding> findings = check(read_recording(file));
-    print_findings(findings, json);
+    print_findings(findings, json, std::cout);
     return findings.empty() ? exit_done : exit_difference;
   }
 };

@@ -29,6 +29,7 @@ constexpr std::size_t block_lines = 4096;
 struct Answers {
   std::string text;
   std::size_t errors = 0, missed = 0, first_missed = 0;  ///< the last: a line
+    std::string first_error;                               ///< where, and why
 };
 
 /// Of a line that is no JSON as a whole: the first member "id" it has, if that is a value by itself.
@@ -71,6 +72,7 @@ class Queries {
         out.write(part.text);
         errors_ += part.errors, missed_ += part.missed;
         if (first_missed_ == 0) first_missed_ = part.first_missed;
+        if (first_error_.empty()) first_error_ = part.first_error;
       }
       line_ += count;
       progress(false);
@@ -114,7 +116,7 @@ class Queries {
       if (!scene.expect || missed_expectations(scene, result).empty()) return;
       if (answers.missed++ == 0) answers.first_missed = number;
     } catch (const Error& e) {
-      ++answers.errors;
+      if (answers.errors++ == 0) answers.first_error = e.where().starts_with("line ") ? e.line() : "line " + std::to_string(number) + ": " + e.line();
       append_error(answers.text, id_of(json, line), number, e);
     }
   }
@@ -145,11 +147,12 @@ class Queries {
 
   std::string summary() const {
     return input + ": " + std::to_string(line_) + " lines, " + std::to_string(errors_) + " bad, " + std::to_string(missed_) + " not as expected" +
-           (missed_ > 0 ? ", the first in line " + std::to_string(first_missed_) : "");
+           (first_error_.empty() ? "" : ", the first bad one: " + one_line(first_error_)) + (missed_ > 0 ? ", the first in line " + std::to_string(first_missed_) : "");
   }
 
   std::filesystem::path directory_;
   std::size_t line_ = 0, errors_ = 0, missed_ = 0, first_missed_ = 0;
+  std::string first_error_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now(), shown_{};
 };
 

@@ -23,7 +23,7 @@ struct Run {
     const Recording recording = solved(read, file);
     if (!output.empty()) write_output(output, recording_to_text(recording));
     const std::vector<Finding> findings = check(recording);
-    if (output != "-") print_findings(findings, json);
+    print_findings(findings, json, output == "-" ? std::cerr : std::cout);
     return findings.empty() ? exit_done : exit_difference;
   }
 

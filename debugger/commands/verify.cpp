@@ -6,6 +6,7 @@
 #include "debugger/commands/commands.h"
 #include "debugger/commands/input.h"
 #include "recordings/comparison.h"
+#include "recordings/recording.h"
 
 namespace gjkdbg {
 namespace {
@@ -25,6 +26,7 @@ int run_verify(const std::vector<std::string>& files) {
       if (const auto difference = verify(recording)) {
         std::cout << file << ": differs at ";
         print(*difference, "recorded", "now");
+        if (foreign(recording)) std::cout << "  It was made by " << recording.generator << ", and this is what our own method does: `check` judges the recording itself.\n";
         if (status == exit_done) status = exit_difference;
       } else {
         std::cout << file << ": same, " << recording.events.size() << " events\n";

@@ -208,6 +208,7 @@ struct Render {
     const std::string path = scene_path(file).string();
     if (all && step != "last") throw Error("bad-usage", "--all shows every step", "--step " + step);
     if (all && !output.ends_with(".gif")) throw Error("unknown-format", "--all writes .gif", "-o " + output);
+    if (window && output.ends_with(".svg")) throw Error("unknown-format", "--window writes .png, or with --all .gif", "-o " + output);
     if (output.ends_with(".svg")) return svg(path);
     Headless host(width, height, scale, read_gallery(gallery_directory()));
     App& app = host.app();
@@ -230,7 +231,7 @@ struct Render {
     const auto [end, error] = std::from_chars(step.data(), step.data() + step.size(), n);
     const long last = static_cast<long>(count) - 1;
     if (error != std::errc() || end != step.data() + step.size() || n > last || n < -last - 1)
-      throw Error("no-such-step", "must be a number from 0 to " + std::to_string(last) + ", or last", "--step " + step);
+      throw Error("no-such-step", "must be a number from 0 to " + std::to_string(last) + ", from -1 to " + std::to_string(-last - 1) + " from the end, or last", "--step " + step);
     return static_cast<std::size_t>(n < 0 ? n + last + 1 : n);
   }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algo/motion.h"
 #include "debugger/render/painter.h"
 #include "recordings/mesh_parts.h"
 
@@ -91,7 +92,7 @@ class WorldPainter : public Painter {
   Fastest fastest_ever() const {
     Fastest fastest;
     for (const Body& body : recording_.scene.scene.bodies)
-      if (body.motion) fastest.take(body.motion->velocity, body.motion->angular_velocity);
+      if (body.motion) fastest.take(body.motion->velocity, in_degrees(body.motion->angular_velocity));
     for (const Event& event : recording_.events)
       if (const auto* state = std::get_if<recorded::State>(&event))
         for (const recorded::BodyState& body : state->bodies) fastest.take(body.velocity, body.angular_velocity);

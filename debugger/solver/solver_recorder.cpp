@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "recordings/json_writing.h"
 
@@ -41,6 +42,12 @@ AnyVector loose_vector(const Json& json, const Place& place, int dimension) {
   return v;
 }
 
+std::string text_of(const AnyVector& v) {
+  std::string out;
+  append_vector(out, v);
+  return out;
+}
+
 }  // namespace
 
 SolverRecorder::SolverRecorder(const SceneFile& scene, const Settings& settings)
@@ -63,6 +70,7 @@ std::string SolverRecorder::take(const std::string& line) {
   const auto type = json.find("type");
   if (type == json.end() || !type->is_string()) reject(Place(root, "type"), "bad-message", "is missing");
   const std::string name = type->get<std::string>();
+  note_unknown_fields(name, json);
   if (name == "support") return support(json);
   if (name == "simplex") simplex(json);
   else if (name == "polytope") polytope(json);
@@ -70,6 +78,34 @@ std::string SolverRecorder::take(const std::string& line) {
   else if (name == "result") result(json);
   else reject(Place(root, "type"), "bad-message", "\"" + name + "\" is none of support, simplex, polytope, face, result");
   return {};
+}
+
+/// A misspelt field would be missed without a word. Other ones are left to the solver, but said, once each.
+void SolverRecorder::note_unknown_fields(const std::string& type, const Json& json) {
+  static const std::map<std::string, std::set<std::string>> fields{{"support", {"direction"}},
+                                                                   {"simplex", {"vertices", "direction", "closest"}},
+                                                                   {"polytope", {"faces"}},
+                                                                   {"face", {"vertices", "normal", "distance"}},
+                                                                   {"result", {"intersecting", "signed_distance", "normal", "witness_a", "witness_b"}}};
+  const auto known = fields.find(type);
+  if (known == fields.end()) return;
+  for (const auto& [key, value] : json.items()) {
+    if (key == "type" || key == "id" || known->second.contains(key) || !unknown_fields_.insert(type + "/" + key).second) continue;
+    std::string list;
+    for (const std::string& field : known->second) list += (list.empty() ? "" : ", ") + field;
+    recording_.events.push_back(recorded::Warning{"unknown-field", "The message \"" + type + "\" has a field \"" + key + "\", which is not looked at. It has: " + list + "."});
+  }
+}
+
+/// The direction that the last simplex gave for the next support; where it is next to nothing, the search was at its end.
+void SolverRecorder::check_announced(const AnyVector& direction) {
+  const AnyVector said = std::exchange(announced_, AnyVector());
+  double size = 0;
+  for (const auto& [number, w] : vertices_) size = std::max(size, w.norm());
+  if (said.size() == 0 || !said.allFinite() || !direction.allFinite() || direction.isZero(0) || said.norm() <= 1e-9 * std::min(1.0, size)) return;
+  if (said.stableNormalized().dot(direction.stableNormalized()) >= 0.999) return;
+  recording_.events.push_back(recorded::Warning{"direction-not-asked", "The simplex before gave " + text_of(said) + " for the next direction, but the support is asked for along " + text_of(direction) +
+                                                                          ". The usual cause is a vector that was written over, or turned into a body's axes, in between."});
 }
 
 void SolverRecorder::begin(const AnyVector& direction) {
@@ -84,6 +120,7 @@ std::string SolverRecorder::support(const Json& json) {
   if (found == json.end()) reject(at, "bad-message", "is missing");
   const AnyVector d = loose_vector(*found, at, dimension_);
   begin(d);
+  check_announced(d);
   const AnyVector a = a_(d, true), b = b_(-d, true), w = a - b;
   const int vertex = supports_++;
   vertices_[vertex] = w;
@@ -124,7 +161,9 @@ void SolverRecorder::simplex(const Json& json) {
   for (const int v : simplex_)
     if (std::find(e.before.begin(), e.before.end(), v) == e.before.end()) e.before.push_back(v);
   if (const auto closest = json.find("closest"); closest != json.end() && !closest->is_null()) e.closest = loose_vector(*closest, Place(root, "closest"), dimension_);
-  if (const auto d = json.find("direction"); d != json.end() && !d->is_null()) loose_vector(*d, Place(root, "direction"), dimension_);
+  announced_ = AnyVector();
+  if (const auto d = json.find("direction"); d != json.end() && !d->is_null()) announced_ = loose_vector(*d, Place(root, "direction"), dimension_);
+  if (static_cast<int>(e.region.size()) > dimension_) announced_ = AnyVector();  // full: it may be the end
   e.lower_bound = e.upper_bound = nan;
   simplex_ = e.region;
   pending_.clear();
@@ -168,8 +207,10 @@ void SolverRecorder::orient(std::vector<recorded::Face>& faces) const {
 }
 
 void SolverRecorder::polytope(const Json& json) {
+  announced_ = AnyVector();
   const Place root, at(root, "faces");
-  if (!json.contains("faces") || !json["faces"].is_array() || json["faces"].empty()) reject(at, "bad-message", "must be a list of faces");
+  if (!json.contains("faces") || !json["faces"].is_array()) reject(at, "bad-message", "must be a list of faces");
+  if (json["faces"].empty()) reject(at, "bad-message", "is empty: every face was removed, and none was left to join the new vertex to; the usual cause is a test of which faces it sees with its sign turned");
   end_gjk(GjkStatus::enclosed);
   std::set<std::set<int>> wanted;
   std::vector<recorded::Face> added;
@@ -219,6 +260,7 @@ void SolverRecorder::grow(const std::set<std::set<int>>& wanted, std::vector<rec
 }
 
 void SolverRecorder::face(const Json& json) {
+  announced_ = AnyVector();
   const Place root, at(root, "vertices");
   if (!json.contains("vertices")) reject(at, "bad-message", "is missing");
   const std::vector<int> vertices = face_vertices(json["vertices"], at);
@@ -232,12 +274,26 @@ void SolverRecorder::face(const Json& json) {
   const auto found = faces_.find(std::set<int>(vertices.begin(), vertices.end()));
   recorded::Face face = found != faces_.end() ? found->second : make_face(vertices);
   recorded::FaceChosen e{epa_iteration_, face.face, face.normal, face.distance};
+  const bool known = found != faces_.end();
   if (const auto n = json.find("normal"); n != json.end() && !n->is_null()) {
     e.normal = read_vector(*n, Place(root, "normal"), dimension_);
   }
   if (const auto d = json.find("distance"); d != json.end() && !d->is_null()) e.distance = read_number(*d, Place(root, "distance"));
+  if (!known) check_plane(face, e);
   chosen_ = face;
   recording_.events.push_back(std::move(e));
+}
+
+/// The plane that is given for a face of no polytope, which `check` knows nothing of, holds its vertices.
+void SolverRecorder::check_plane(const recorded::Face& face, const recorded::FaceChosen& given) {
+  const double length = given.normal.norm();
+  for (const int v : face.vertices) {
+    const auto w = vertices_.find(v);
+    if (w == vertices_.end() || !(length > 0) || std::abs(std::abs(given.normal.dot(w->second) / length) - std::abs(given.distance)) <= 1e-6 * (w->second.norm() + std::abs(given.distance))) continue;
+    recording_.events.push_back(recorded::Warning{"wrong-face", "The face chosen is given the normal " + text_of(given.normal) + " and the distance " + std::to_string(given.distance) + ", but its vertex " + std::to_string(v) + " lies at " +
+                                                                  std::to_string(given.normal.dot(w->second) / length) + " along it."});
+    return;
+  }
 }
 
 void SolverRecorder::result(const Json& json) {
@@ -254,7 +310,8 @@ void SolverRecorder::result(const Json& json) {
   if (const Json* x = given("normal")) r.normal = read_vector(*x, o.at("normal"), dimension_);
   if (const Json* x = given("witness_a")) r.witness_a = read_vector(*x, o.at("witness_a"), dimension_);
   if (const Json* x = given("witness_b")) r.witness_b = read_vector(*x, o.at("witness_b"), dimension_);
-  const bool measured = r.signed_distance && recording_.scene.scene.query != Query::intersect;
+  if (recording_.scene.scene.query == Query::intersect) r.signed_distance.reset(), r.normal.reset(), r.witness_a.reset(), r.witness_b.reset();  // not asked for: neither kept nor judged
+  const bool measured = r.signed_distance.has_value();
   end_gjk(r.intersecting ? GjkStatus::enclosed : measured ? GjkStatus::converged : GjkStatus::separated);
   r.status = "converged";
   if (epa_ || chosen_) {

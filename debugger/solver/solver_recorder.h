@@ -34,6 +34,9 @@ class SolverRecorder {
   void polytope(const Json& json);
   void face(const Json& json);
   void result(const Json& json);
+  void note_unknown_fields(const std::string& type, const Json& json);
+  void check_announced(const AnyVector& direction);
+  void check_plane(const recorded::Face& face, const recorded::FaceChosen& given);
   void begin(const AnyVector& direction);
   void end_gjk(GjkStatus status);
   std::vector<int> vertex_list(const Json& json, const Place& place) const;
@@ -49,6 +52,8 @@ class SolverRecorder {
   bool began_ = false, gjk_ended_ = false, epa_ = false, done_ = false;
   std::map<int, AnyVector> vertices_;
   std::vector<int> simplex_, pending_;
+  AnyVector announced_;                   ///< the direction that the last simplex gave for the next support; empty when none
+  std::set<std::string> unknown_fields_;  ///< told of already
   std::map<std::set<int>, recorded::Face> faces_;
   std::optional<recorded::Face> chosen_;
 };

@@ -2,6 +2,7 @@
 
 #include "debugger/solver/solver_process.h"
 #include "debugger/solver/solver_recorder.h"
+#include "recordings/json_writing.h"
 
 namespace gjkdbg {
 namespace {
@@ -47,7 +48,9 @@ void nothing_follows(SolverProcess& process, SolverRecorder& recorder, SolverPro
 void talk(SolverProcess& process, SolverRecorder& recorder, const SolverLimits& limits) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(limits.timeout));
   const auto timed_out = [&] {
-    recorder.abort("timeout", "No result after " + std::to_string(limits.timeout) + " seconds and " + std::to_string(recorder.supports()) +
+    std::string seconds;
+    append_number(seconds, limits.timeout);
+    recorder.abort("timeout", "No result after " + seconds + " seconds and " + std::to_string(recorder.supports()) +
                                   " support queries. The usual causes are a loop that never ends, and output that is not flushed after every line.");
   };
   using Outcome = SolverProcess::Outcome;

@@ -139,7 +139,7 @@ TEST(Contact, WhatStandsStandsStill) {
 TEST(Contact, ACylinderThatSlidesComesToRollStraight) {
   const FinalState s = after(2, cylinder, "[0, 0.5, -2]", lying, "[0, 0, 1.5]")[1];
   EXPECT_NEAR(s.velocity[2], 1, 0.01);
-  EXPECT_NEAR(s.angular_velocity[0], s.velocity[2] / 0.5, 0.02);
+  EXPECT_NEAR(s.angular_velocity[0] * M_PI / 180, s.velocity[2] / 0.5, 0.02);
   EXPECT_LE(std::abs(s.velocity[0]) + std::abs(s.position[0]), 1e-6) << "it does not turn aside";
 }
 
