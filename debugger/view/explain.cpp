@@ -160,7 +160,16 @@ struct Explain {
     return {"Support along the momentum", "d keeps some of the directions before it, and is not -v alone. "};
   }
 
+  /// What a solver keeps may be wrong, and no reason is given for it: the findings and the way to go on from here stand below.
+  Explanation solver_keeps(const recorded::SimplexReduced& e) const {
+    const std::string kept = letters(e.region, e.before), all = letters(e.before, e.before), part = feature_name(e.region.size()) + " " + kept;
+    std::string text = e.before.size() <= e.region.size() ? "The solver keeps the " + part : "Of " + all + ", the solver keeps the " + part + " and drops " + letters(frame.dropped, e.before);
+    if (e.closest.size() > 0) text += ". It gives v = " + short_vector(e.closest) + ", |v| = " + short_number(e.closest.norm()) + " for the point nearest the origin";
+    return {e.before.size() <= e.region.size() ? "The whole " + feature_name(e.region.size()) + " is kept" : "Simplex cut to " + part, text + "."};
+  }
+
   Explanation operator()(const recorded::SimplexReduced& e) const {
+    if (foreign(recording)) return solver_keeps(e);
     if (e.before.size() == 1 && e.closest.size() > 0)
       return {"The simplex is one vertex", "So the nearest point is that vertex: v = " + short_vector(e.closest) + ", |v| = " + short_number(e.closest.norm()) + (led() || ends_here() ? "." : "; the search goes on along -v, towards the origin.")};
     const std::string kept = letters(e.region, e.before), all = letters(e.before, e.before);
