@@ -248,12 +248,14 @@ std::vector<Finding> check(const Recording& recording) {
   TraceCheck trace(context);
   Walk walk(context);
   RecordCheck record(context);
+  OrderCheck steps(context);
   for (std::size_t i = 0; i < recording.events.size(); ++i) {
     context.step = i;
     trace.order(recording.events[i]);
     std::visit(walk, recording.events[i]);
     trace.values(recording.events[i]);
     record(recording.events[i]);
+    steps(recording.events[i]);
     if (std::holds_alternative<recorded::MprEnded>(recording.events[i])) context.of_cores();
   }
   trace.finish();

@@ -278,6 +278,19 @@ class RecordCheck {
   AnyVector projected_from_;                  ///< the point last said to be projected; empty before any
 };
 
+/// Whether our own events follow one another as our steps do: see check_order.cpp.
+class OrderCheck {
+ public:
+  explicit OrderCheck(CheckContext& context);
+  /// After every other check of the event.
+  void operator()(const Event& event);
+
+ private:
+  CheckContext& c_;
+  std::string before_, earlier_;
+  bool portal_ = false, casting_ = false;  ///< whether MPR has a portal; whether a cast looks at pairs
+};
+
 /// The answer against our own.
 void check_result(CheckContext& context, double best_plane);
 /// A cast: whether bodies meet, when, which, how, and where they end.
