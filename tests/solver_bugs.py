@@ -131,6 +131,7 @@ EDITS = [
     ("box-box-deep", lambda r: r["result"].update(iterations=3), "inconsistent"),
     ("box-box-deep", lambda r: r["result"].update(support_calls=3), "inconsistent"),
     ("box-box-deep", lambda r: r["result"].update(support_calls=99), "inconsistent"),
+    ("sat-box-box", lambda r: at(r, "axis_tested", 4).update(lower_bound=at(r, "axis_tested", 4)["lower_bound"] - 0.1), "inconsistent"),
     ("box-box-deep", lambda r: at(r, "support_queried", 3).update(iteration=9), "inconsistent"),
     ("box-box-deep", lambda r: at(r, "support_queried", 7).update(vertex=99), "inconsistent"),
     ("box-box-apart", lambda r: at(r, "simplex_reduced", 1).update(iteration=2), "any:inconsistent"),
