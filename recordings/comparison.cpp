@@ -71,6 +71,15 @@ std::optional<Difference> first_difference(const Recording& a, const Recording& 
   return first_not([](const Json& x, const Json& y) { return x.dump() == y.dump(); }, a, b);
 }
 
+std::vector<std::string> differing_premises(const Recording& a, const Recording& b) {
+  const auto premises = [](const Recording& r) { return Json::parse(recording_to_text({r.generator, r.scene, r.settings, {}, r.result})); };
+  const Json left = premises(a), right = premises(b);
+  std::vector<std::string> names;
+  for (const char* name : {"scene", "method"})
+    if (left[name] != right[name]) names.emplace_back(name);
+  return names;
+}
+
 std::optional<Difference> first_other_way(const Recording& a, const Recording& b) {
   double size = 0;
   for (const Event& event : a.events)

@@ -20,6 +20,9 @@ struct Difference {
 /// Compares events, then results, bit for bit (the sign of zero counts). Scene, method and generator are not compared.
 std::optional<Difference> first_difference(const Recording& a, const Recording& b);
 
+/// Which of "scene" and "method" are not the same.
+std::vector<std::string> differing_premises(const Recording& a, const Recording& b);
+
 /// The first event in which they go different ways, of runs in different precisions: kinds, vertices, faces and statuses count, numbers only
 /// where they differ by more than 1e-4 of their size or the scene's. `fields` and the results as above.
 std::optional<Difference> first_other_way(const Recording& a, const Recording& b);

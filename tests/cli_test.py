@@ -262,6 +262,7 @@ class Program(unittest.TestCase):
         result = run("diff", a, b)
         self.assertEqual(result.returncode, 1)
         self.assertIn("event 0: direction", result.stdout)
+        self.assertIn("The methods are not the same", result.stdout)
         recording = json.loads(a.read_text())
         recording["events"][1]["w"][0] += 1
         result = run("verify", self.write("altered.json", recording))

@@ -42,13 +42,15 @@ int run_verify(const std::vector<std::string>& files) {
 int run_diff(const std::string& a, const std::string& b) {
   const Recording left = read_recording(a), right = read_recording(b);
   const auto difference = first_difference(left, right);
-  if (!difference) {
+  if (difference) {
+    std::cout << "differ at ";
+    print(*difference, a, b);
+  } else {
     std::cout << "same, " << left.events.size() << " events\n";
-    return exit_done;
   }
-  std::cout << "differ at ";
-  print(*difference, a, b);
-  return exit_difference;
+  if (const std::vector<std::string> premises = differing_premises(left, right); !premises.empty())
+    std::cout << "  (The " << (premises.size() == 2 ? "scenes and the methods" : premises[0] + "s") << " are not the same; only steps and results are compared.)\n";
+  return difference ? exit_difference : exit_done;
 }
 
 }  // namespace
