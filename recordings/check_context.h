@@ -182,6 +182,7 @@ class EpaCheck {
     double uncertain = 0;  ///< how far off the plane a point of the polytope must be to have a side
     bool usable = true;
   };
+  std::string name(int number) const;
   void add(const recorded::Face& f);
   bool supports(const recorded::Face& f, const std::vector<AnyVector>& w) const;
   void orient(const std::vector<recorded::Face>& added);
@@ -199,6 +200,7 @@ class EpaCheck {
 
   CheckContext& c_;
   std::map<int, Face> faces_;
+  std::map<int, std::vector<int>> corners_;  ///< of these, and of those removed
   std::optional<int> chosen_;
   AnyVector chosen_normal_;  ///< as recorded; empty after the query along it
   struct NoGain {

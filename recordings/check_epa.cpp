@@ -10,8 +10,6 @@
 namespace gjkdbg {
 namespace {
 
-std::string face_name(int number) { return "face " + std::to_string(number); }
-
 /// Across a face, not oriented; its length is twice the area (2D: the edge's length, 1D: 1).
 AnyVector across(const std::vector<AnyVector>& w, int dimension) {
   if (dimension == 3 && w.size() == 3) return Eigen::Vector3d(w[1] - w[0]).cross(Eigen::Vector3d(w[2] - w[0]));
@@ -20,6 +18,13 @@ AnyVector across(const std::vector<AnyVector>& w, int dimension) {
 }
 
 }  // namespace
+
+/// By its vertices, which a solver knows it by; by its number where the recording has one.
+std::string EpaCheck::name(int number) const {
+  const auto known = corners_.find(number);
+  std::string out = c_.inferred && known != corners_.end() ? "face" : "face " + std::to_string(number);
+  return known != corners_.end() ? out + " " + list_of(known->second) : out;
+}
 
 /// A point inside: the mean of the vertices in use.
 AnyVector EpaCheck::centre() {
@@ -45,7 +50,7 @@ bool EpaCheck::supports(const recorded::Face& f, const std::vector<AnyVector>& w
 
 void EpaCheck::add(const recorded::Face& f) {
   Face face;
-  face.vertices = f.vertices;
+  face.vertices = corners_[f.face] = f.vertices;
   std::vector<AnyVector> w;
   for (const int v : f.vertices)
     if (const AnyVector* p = c_.vertex(v)) w.push_back(*p);
@@ -91,7 +96,7 @@ bool EpaCheck::check_normal(int number, const AnyVector& given) {
   const AnyVector& right = faces_[number].normal;
   const bool inwards = right.dot(given) < -0.9 * given.norm();
   if (inwards)
-    c_.find("flipped-face-normal", "The normal " + text_of(given) + " of " + face_name(number) + " points into the polytope; expected is " + text_of(right) +
+    c_.find("flipped-face-normal", "The normal " + text_of(given) + " of " + name(number) + " points into the polytope; expected is " + text_of(right) +
                                        ". The usual cause is a winding that was not kept: turn the normal so that it looks away from a point inside.");
   return !inwards;
 }
@@ -100,13 +105,13 @@ bool EpaCheck::check_normal(int number, const AnyVector& given) {
 void EpaCheck::check_plane(int number, const AnyVector& normal, double distance) {
   if (!normal.allFinite() || !std::isfinite(distance)) return;
   if (!c_.inferred && std::abs(normal.norm() - 1) > 1e-4)  // a solver may leave its normals as long as they come
-    c_.find("wrong-face", "The normal " + text_of(normal) + " of " + face_name(number) + " has length " + text_of(normal.norm()) + " instead of 1. Expected is " + text_of(faces_[number].normal) + ".");
-  if (normal.isZero(0)) return c_.find("wrong-face", "The normal of " + face_name(number) + " is zero. Expected is " + text_of(faces_[number].normal) + ".");
+    c_.find("wrong-face", "The normal " + text_of(normal) + " of " + name(number) + " has length " + text_of(normal.norm()) + " instead of 1. Expected is " + text_of(faces_[number].normal) + ".");
+  if (normal.isZero(0)) return c_.find("wrong-face", "The normal of " + name(number) + " is zero. Expected is " + text_of(faces_[number].normal) + ".");
   const AnyVector n = normal.stableNormalized();
   for (const int v : faces_[number].vertices) {
     const AnyVector* w = c_.vertex(v);
     if (!w || std::abs(n.dot(*w) - distance) <= std::max(c_.tolerance, 1e-7 * c_.size)) continue;
-    c_.find("wrong-face", "The plane of " + face_name(number) + " is given by the normal " + text_of(normal) + " and the distance " + text_of(distance) + ", but its vertex " + std::to_string(v) + " lies at " + text_of(n.dot(*w)) +
+    c_.find("wrong-face", "The plane of " + name(number) + " is given by the normal " + text_of(normal) + " and the distance " + text_of(distance) + ", but its vertex " + std::to_string(v) + " lies at " + text_of(n.dot(*w)) +
                               " along it. Expected are the normal " + text_of(faces_[number].normal) + " and the distance " + text_of(faces_[number].distance) + ".");
     return;
   }
@@ -117,16 +122,15 @@ void EpaCheck::check_horizon(const recorded::PolytopeGrown& e) {
   if (c_.dimension == 1 || (c_.dimension == 2 && e.horizon.empty())) return;
   std::map<std::array<int, 2>, int> rim;
   std::set<std::array<int, 2>> right, given;
-  for (const int number : e.removed) {
+  for (std::size_t i = 0; i < e.removed.size(); ++i) {
+    const int number = e.removed[i];
     const auto found = faces_.find(number);
-    if (found == faces_.end()) {
-      c_.find("wrong-face", face_name(number) + " is removed, but the polytope has none of this number.");
-      return;
-    }
+    const bool twice = std::find(e.removed.begin(), e.removed.begin() + static_cast<std::ptrdiff_t>(i), number) != e.removed.begin() + static_cast<std::ptrdiff_t>(i);
+    if (found == faces_.end() || twice) return c_.find("wrong-face", "Of the faces removed, " + name(number) + (twice ? " is named twice." : " is none of the polytope."));
     const std::vector<int>& v = found->second.vertices;
-    for (std::size_t i = 0; i < v.size(); ++i) {
-      const int next = c_.dimension == 3 ? v[(i + 1) % v.size()] : v[i];
-      ++rim[{std::min(v[i], next), std::max(v[i], next)}];
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      const int next = c_.dimension == 3 ? v[(k + 1) % v.size()] : v[k];
+      ++rim[{std::min(v[k], next), std::max(v[k], next)}];
     }
   }
   for (const auto& [edge, count] : rim)
@@ -181,7 +185,7 @@ void EpaCheck::check_removed(const recorded::PolytopeGrown& e, const std::map<in
     if (found == before.end() || !found->second.usable) continue;
     const double behind = found->second.distance - found->second.normal.dot(*c_.vertex(e.vertex));
     if (behind <= std::max(1e-6 * c_.size, c_.tolerance) + found->second.uncertain) continue;
-    c_.find("hidden-face-removed", "Vertex " + std::to_string(e.vertex) + " lies " + text_of(behind) + " behind " + face_name(number) + ", which was removed all the same: it does not see it. Faces with normal . w > distance must go, and no others. "
+    c_.find("hidden-face-removed", "Vertex " + std::to_string(e.vertex) + " lies " + text_of(behind) + " behind " + name(number) + ", which was removed all the same: it does not see it. Faces with normal . w > distance must go, and no others. "
                                    "The usual cause is comparing normal . w with zero instead of with the face's own distance.");
     return;
   }
@@ -212,7 +216,7 @@ void EpaCheck::check_kept(int newest) {
   const AnyVector& w = *c_.vertex(newest);
   for (const auto& [number, face] : faces_) {
     if (!face.usable || face.normal.dot(w) - face.distance <= std::max(1e-6 * c_.size, c_.tolerance) + face.uncertain) continue;
-    c_.find("visible-face-kept", "Vertex " + std::to_string(newest) + " sees " + face_name(number) + " from " + text_of(face.normal.dot(w) - face.distance) + " beyond it, but the face was kept. Every face with normal . w > distance must go before the horizon is closed.");
+    c_.find("visible-face-kept", "Vertex " + std::to_string(newest) + " sees " + name(number) + " from " + text_of(face.normal.dot(w) - face.distance) + " beyond it, but the face was kept. Every face with normal . w > distance must go before the horizon is closed.");
     return;
   }
 }
@@ -229,7 +233,7 @@ void EpaCheck::check_convex(std::optional<int> newest) {
       if (found == c_.vertices.end() || newest == v) continue;
       const double beyond = face.normal.dot(found->second) - face.distance;
       if (beyond <= limit + face.uncertain) continue;
-      c_.find("non-convex-polytope", "Vertex " + std::to_string(v) + " lies " + text_of(beyond) + " beyond " + face_name(number) + ": the polytope is not convex. The usual cause is splitting only the nearest face instead of removing every face the new vertex sees, or removing others as well.");
+      c_.find("non-convex-polytope", "Vertex " + std::to_string(v) + " lies " + text_of(beyond) + " beyond " + name(number) + ": the polytope is not convex. The usual cause is splitting only the nearest face instead of removing every face the new vertex sees, or removing others as well.");
       return;
     }
   }
@@ -238,7 +242,7 @@ void EpaCheck::check_convex(std::optional<int> newest) {
 void EpaCheck::check_origin() {
   for (const auto& [number, face] : faces_)
     if (face.usable && face.distance < -std::max(1e-7 * c_.size, c_.tolerance)) {
-      c_.find("origin-outside-polytope", "The origin lies " + text_of(-face.distance) + " outside " + face_name(number) + ". EPA needs a start that holds the origin: begin with a simplex GJK has proven to, and complete one with too few vertices by asking across it.");
+      c_.find("origin-outside-polytope", "The origin lies " + text_of(-face.distance) + " outside " + name(number) + ". EPA needs a start that holds the origin: begin with a simplex GJK has proven to, and complete one with too few vertices by asking across it.");
       return;
     }
 }
@@ -247,7 +251,7 @@ void EpaCheck::check_origin() {
 void EpaCheck::tell_no_gain() {
   if (!no_gain_) return;
   const std::size_t now = std::exchange(c_.step, no_gain_->step);
-  c_.find("no-progress", "Vertex " + std::to_string(no_gain_->vertex) + " lies no farther out than " + face_name(no_gain_->face) + ", across which it was asked for: the face is part of the boundary, and the search was over. It grows the polytope all the same. "
+  c_.find("no-progress", "Vertex " + std::to_string(no_gain_->vertex) + " lies no farther out than " + name(no_gain_->face) + ", across which it was asked for: the face is part of the boundary, and the search was over. It grows the polytope all the same. "
                            "Stop when normal . w is no more than the face's distance and a tolerance.");
   c_.step = now;
   no_gain_.reset();
@@ -269,13 +273,13 @@ void EpaCheck::operator()(const recorded::FaceChosen& e) {
   chosen_ = e.face, chosen_normal_ = e.normal;
   const auto found = faces_.find(e.face);
   if (found == faces_.end() && (!faces_.empty() || !c_.inferred))
-    c_.find("wrong-face", face_name(e.face) + " was chosen, but the polytope has none of this number: it was removed, or never there.");
+    c_.find("wrong-face", "The face chosen, " + name(e.face) + ", is none of the polytope: it was removed, or never there.");
   if (found == faces_.end() || !found->second.usable) return;
   const Face& face = found->second;
   const bool outwards = check_normal(e.face, e.normal);
   for (const auto& [number, other] : faces_) {
     if (!other.usable || other.distance >= face.distance - std::max(1e-7 * c_.size, c_.tolerance)) continue;
-    c_.find("not-closest-face", face_name(e.face) + " was chosen, " + text_of(face.distance) + " from the origin, but " + face_name(number) + " is nearer, at " + text_of(other.distance) +
+    c_.find("not-closest-face", "The face chosen, " + name(e.face) + ", is " + text_of(face.distance) + " from the origin, but " + name(number) + " is nearer, at " + text_of(other.distance) +
                                     ". EPA's bound holds for the nearest face only. The usual cause is comparing distances of normals that were not normalised, or a stale queue entry.");
     break;
   }
@@ -290,7 +294,7 @@ void EpaCheck::operator()(const recorded::EpaEnded& e) {
   const double height = c_.height(face.normal);
   const bool right = std::abs(-e.depth - *c_.reference().signed_distance) <= c_.answer_tolerance();
   if (!right && height - face.distance > c_.stop * std::max(height, c_.size))
-    c_.find("stopped-early", "EPA ended at " + face_name(found->first) + ", " + text_of(face.distance) + " from the origin, but A - B reaches " + text_of(height) + " along its normal: the face is not on the boundary. The usual cause is a tolerance that is too coarse, or a "
+    c_.find("stopped-early", "EPA ended at " + name(found->first) + ", " + text_of(face.distance) + " from the origin, but A - B reaches " + text_of(height) + " along its normal: the face is not on the boundary. The usual cause is a tolerance that is too coarse, or a "
                              "limit on iterations taken for convergence.");
 }
 

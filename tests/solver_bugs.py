@@ -103,6 +103,7 @@ EDITS = [
     ("box-box-deep", lambda r: at(r, "polytope_seeded")["faces"][0].update(normal=negated(at(r, "polytope_seeded")["faces"][0]["normal"])), "flipped-face-normal"),
     ("box-box-deep", lambda r: at(r, "polytope_seeded")["faces"].pop(), "open-polytope"),
     ("box-box-deep", lambda r: at(r, "polytope_grown")["removed"].pop(), "any:visible-face-kept"),
+    ("box-box-deep", lambda r: at(r, "polytope_grown")["removed"].append(at(r, "polytope_grown")["removed"][0]), "wrong-face"),
     ("box-box-deep", lambda r: at(r, "polytope_grown")["added"].pop(), "open-polytope"),
     # A face stays that an older vertex sees, not the one that came.
     ("box-box-deep", lambda r: (at(r, "polytope_grown")["removed"].pop(), at(r, "polytope_grown").update(vertex=0)), "any:non-convex-polytope"),

@@ -1,22 +1,32 @@
 // Steps of our own recordings that are doubled or left out.
 #include <gtest/gtest.h>
 
+#include <ostream>
+#include <string>
+
 #include "recordings/check.h"
 #include "recordings/gallery.h"
 
 namespace gjkdbg {
 namespace {
 
-Recording recorded_by(const char* scene, MethodName method) {
-  SceneFile file = read_scene(read_gallery(GJKDBG_GALLERY).file(scene));
-  change_name(file.method, method);
+struct Run {
+  std::string scene;
+  MethodName method;
+};
+
+void PrintTo(const Run& run, std::ostream* out) { *out << run.scene << " by " << method_names[static_cast<std::size_t>(run.method)]; }
+
+Recording recorded(const Run& run) {
+  SceneFile file = read_scene(read_gallery(GJKDBG_GALLERY).file(run.scene));
+  change_name(file.method, run.method);
   return record(file);
 }
 
-class CheckOrder : public testing::TestWithParam<std::pair<const char*, MethodName>> {};
+class CheckOrder : public testing::TestWithParam<Run> {};
 
 TEST_P(CheckOrder, AStepTooManyIsFound) {
-  const Recording right = recorded_by(GetParam().first, GetParam().second);
+  const Recording right = recorded(GetParam());
   EXPECT_TRUE(check(right).empty());
   for (std::size_t i = 0; i < right.events.size(); ++i) {
     Recording wrong = right;
@@ -27,7 +37,7 @@ TEST_P(CheckOrder, AStepTooManyIsFound) {
 
 /// Some need not be there: a simplex may end the run or not, a portal or a guess may be the last or not.
 TEST_P(CheckOrder, AStepTooFewIsFound) {
-  const Recording right = recorded_by(GetParam().first, GetParam().second);
+  const Recording right = recorded(GetParam());
   for (std::size_t i = 0; i < right.events.size(); ++i) {
     const std::string_view kind = kind_name(right.events[i]);
     const bool last = i + 1 < right.events.size() && kind_name(right.events[i + 1]).ends_with("_ended");
@@ -39,10 +49,8 @@ TEST_P(CheckOrder, AStepTooFewIsFound) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, CheckOrder,
-                         testing::Values(std::pair("box-box-deep", MethodName::gjk), std::pair("box-box-deep", MethodName::mpr), std::pair("box-box-deep", MethodName::sat),
-                                         std::pair("2d-squares-apart", MethodName::gjk), std::pair("boolean-hit-3d", MethodName::gjk_boolean),
-                                         std::pair("pair-capsule-cone", MethodName::projections), std::pair("cast-rotating-rod", MethodName::gjk)),
-                         [](const auto& tested) { return std::to_string(tested.index) + "_" + std::string(kind_name(recorded_by(tested.param.first, tested.param.second).events.front())); });
+                         testing::Values(Run{"box-box-deep", MethodName::gjk}, Run{"box-box-deep", MethodName::mpr}, Run{"box-box-deep", MethodName::sat}, Run{"2d-squares-apart", MethodName::gjk},
+                                         Run{"boolean-hit-3d", MethodName::gjk_boolean}, Run{"pair-capsule-cone", MethodName::projections}, Run{"cast-rotating-rod", MethodName::gjk}));
 
 }  // namespace
 }  // namespace gjkdbg
