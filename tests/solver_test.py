@@ -200,6 +200,14 @@ class Solver(unittest.TestCase):
             time.sleep(3.5)
             self.assertFalse(mark.exists())
 
+    def test_sweep_shows_the_same_error_output_once(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "crashes.py")
+            path.write_text('raise ValueError("boom")\n')
+            result = subprocess.run([PROGRAM, "sweep", "--exec", f"/usr/bin/python3 {path}", "--dimension", "1", "--random", "3"], capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stderr), (1, ""))
+        self.assertEqual((result.stdout.count("ValueError: boom"), result.stdout.count("Traceback"), result.stdout.count(" crash\n")), (1, 1, 8))
+
     def test_sweep(self):
         clean = subprocess.run([PROGRAM, "sweep", "--exec", f"/usr/bin/python3 {KIT}", "--dimension", "2", "--random", "20"], capture_output=True, text=True)
         self.assertEqual(clean.returncode, 0, clean.stdout)

@@ -1,11 +1,16 @@
 // sweep: the gallery and random scenes through another implementation; what fails, and how, and the simplest scene that fails alike.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <set>
+#include <sstream>
 
 #include "algo/solve.h"
 #include "debugger/commands/commands.h"
@@ -61,24 +66,63 @@ class RandomPairs {
   int dimension_;
 };
 
+/// What the program writes to its standard error, kept apart from the table. The same traceback a hundred times tells no more than once.
+class ErrorOutput {
+ public:
+  ErrorOutput() : file_(std::tmpfile(), &std::fclose) {}
+  int descriptor() const { return file_ ? fileno(file_.get()) : STDERR_FILENO; }
+  /// Where it was not shown before.
+  void show(const std::string& text) {
+    if (text.empty() || !shown_.insert(text).second || shown_.size() > most + 1) return;
+    std::cout << (shown_.size() > most ? "  (more error output, not shown; `run` shows what comes of a scene)\n" : indented(text)) << std::flush;
+  }
+  /// What came since the last call.
+  std::string take() {
+    std::string text;
+    if (!file_) return text;
+    std::rewind(file_.get());
+    char chunk[4096];
+    for (std::size_t n; (n = std::fread(chunk, 1, sizeof chunk, file_.get())) > 0;)
+      if (text.size() < longest) text.append(chunk, n);
+    std::rewind(file_.get());
+    if (ftruncate(fileno(file_.get()), 0) != 0) file_.reset();
+    return text;
+  }
+
+ private:
+  static constexpr std::size_t most = 5, longest = 4000;  ///< texts; characters of one
+  static std::string indented(const std::string& text) {
+    std::string out, line;
+    for (std::istringstream lines(text.substr(0, longest)); std::getline(lines, line);) out += "    " + line + "\n";
+    return out;
+  }
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  std::set<std::string> shown_;
+};
+
 struct Sweep {
   std::string command, output;
   int random = 100, dimension = 0;
   unsigned seed = 1;
   SolverLimits limits;
 
-  int run() const {
+  int run() {
+    ErrorOutput errors;
+    limits.errors = errors.descriptor();
     int passed = 0, failed = 0;
     std::map<std::string, int> codes;
     const auto one = [&](const SceneFile& scene) {
       if (!suits(scene)) return;
       const auto code = failure(scene);
       code ? ++failed : ++passed;
-      if (!code) return;
+      if (!code) return void(errors.take());
       ++codes[*code];
       std::cout << std::left << std::setw(36) << scene.scene.name << " " << *code;
+      const std::string said = errors.take();
       if (!output.empty()) std::cout << "  " << save(scene, *code);
       std::cout << std::endl;
+      errors.take();
+      errors.show(said);
     };
     const Gallery gallery = read_gallery(gallery_directory());
     for (const Lesson& lesson : gallery.lessons)

@@ -31,10 +31,11 @@ void open_pipe(int ends[2]) {
   for (int i = 0; i < 2; ++i) fcntl(ends[i], F_SETFD, FD_CLOEXEC);
 }
 
-[[noreturn]] void run_child(const std::string& command, const int in[2], const int out[2]) {
+[[noreturn]] void run_child(const std::string& command, const int in[2], const int out[2], int errors) {
   setpgid(0, 0);
   dup2(in[0], STDIN_FILENO);
   dup2(out[1], STDOUT_FILENO);
+  dup2(errors, STDERR_FILENO);
   signal(SIGPIPE, SIG_DFL);
   execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
   _exit(127);
@@ -42,11 +43,11 @@ void open_pipe(int ends[2]) {
 
 }  // namespace
 
-SolverProcess::SolverProcess(const std::string& command) {
+SolverProcess::SolverProcess(const std::string& command, int errors) {
   int in[2], out[2];
   open_pipe(in), open_pipe(out);
   pid_ = fork();
-  if (pid_ == 0) run_child(command, in, out);
+  if (pid_ == 0) run_child(command, in, out, errors);
   close(in[0]), close(out[1]);
   if (pid_ < 0) cannot_start();
   setpgid(pid_, pid_);  // both sides do: whoever comes first

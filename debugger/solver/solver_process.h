@@ -12,8 +12,8 @@ namespace gjkdbg {
 
 class SolverProcess {
  public:
-  /// Starts `command` by /bin/sh in a process group of its own; its standard error is ours. Throws Error when that fails.
-  explicit SolverProcess(const std::string& command);
+  /// Starts `command` by /bin/sh in a process group of its own; its standard error goes to the descriptor `errors`. Throws Error when that fails.
+  SolverProcess(const std::string& command, int errors);
   /// Kills the whole group it started, and nothing else.
   ~SolverProcess();
   SolverProcess(const SolverProcess&) = delete;

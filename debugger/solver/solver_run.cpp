@@ -91,7 +91,7 @@ Recording run_solver(const SceneFile& scene, const Settings& settings, const std
   for (const Body& body : scene.scene.bodies)
     if (std::holds_alternative<Mesh>(body.shape.geometry)) throw Error("unsupported-shape", "a mesh has no support function; a solver runs on convex shapes", "/bodies");
   SolverRecorder recorder(scene, settings);
-  SolverProcess process(command);
+  SolverProcess process(command, limits.errors);
   talk(process, recorder, limits);
   return std::move(recorder).finish();
 }

@@ -11,6 +11,7 @@ namespace gjkdbg {
 struct SolverLimits {
   int max_supports = 1000;
   double timeout = 10;  ///< seconds, from start to result
+  int errors = 2;       ///< the file descriptor its standard error goes to: ours
 };
 
 /// Runs `command` on a scene and records it. A crash, a hang, a bad message, too many queries or a missing result end the recording with a
