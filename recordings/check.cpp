@@ -139,8 +139,8 @@ void CheckContext::suspect(const char* code, const std::string& message) {
 }
 
 std::vector<Finding> CheckContext::take() {
-  std::stable_sort(findings_.begin(), findings_.end(), [](const Finding& x, const Finding& y) { return x.step < y.step; });
   const auto is_error = [](const Finding& f) { return f.severity == Finding::Severity::error; };
+  std::stable_sort(findings_.begin(), findings_.end(), [&](const Finding& x, const Finding& y) { return x.step != y.step ? x.step < y.step : is_error(x) && !is_error(y); });
   auto root = std::find_if(findings_.begin(), findings_.end(), is_error);
   if (root == findings_.end()) return std::move(findings_);
   static const std::set<std::string_view> consequences{"wrong-witness", "wrong-normal",  "wrong-distance",  "wrong-depth", "wrong-answer", "stopped-early", "origin-not-enclosed", "unjustified-separation",

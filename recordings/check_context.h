@@ -213,7 +213,7 @@ class EpaCheck {
 /// What our own recordings say twice: see check_record.cpp.
 class RecordCheck {
  public:
-  explicit RecordCheck(CheckContext& context) : c_(context), ours_(!foreign(context.recording)) {}
+  explicit RecordCheck(CheckContext& context);
   /// After every other check of the event: what those find is nearer to the cause.
   void operator()(const Event& event);
   void result();
@@ -255,6 +255,7 @@ class RecordCheck {
   void judge(const recorded::CastBegan& e);
   void judge(const recorded::CastAdvanced& e);
   void judge(const recorded::CastEnded& e) { cast_iterations_ = e.iteration; }
+  void judge(const recorded::State&) { responded_ = true; }
   template <class E>
   void judge(const E&) {}
 
@@ -276,6 +277,11 @@ class RecordCheck {
   std::array<int, 3> axes_{};                 ///< SAT's, by source: how many may still come
   std::optional<recorded::ClosedFormBegan> segments_;
   std::vector<Edge> pairs_;                   ///< of the bodies that a cast looks at
+  int cast_iteration_ = 0, ray_iteration_ = 0;  ///< so far
+  double cast_time_ = 0;
+  bool responded_ = false;                    ///< whether bodies move otherwise than the scene says
+  std::optional<double> radius_between_;      ///< of motions and meshes: between the vertices' difference and that of the bodies, where every pair has the same
+  double radius() const { return radius_between_.value_or(c_.radius); }
   std::optional<int> cast_iterations_;
   AnyVector projected_from_;                  ///< the point last said to be projected; empty before any
 };

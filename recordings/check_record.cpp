@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "algo/motion.h"
 #include "recordings/check_context.h"
 
 namespace gjkdbg {
@@ -21,7 +22,20 @@ bool same_numbers(std::vector<int> x, std::vector<int> y) {
   return x == y;
 }
 
+/// Between the vertices' difference and any pair's; unset where it depends on the pair. A mesh has none, but for its margin.
+std::optional<double> radius_of_all_pairs(const Scene& scene) {
+  std::vector<double> radii;
+  for (const Body& body : scene.bodies) radii.push_back(WorldSupport(Body{body.name, convex_parts(body.shape).front(), body.pose}, scene.dimension).radius());
+  const bool same = std::all_of(radii.begin(), radii.end(), [&](double r) { return r == radii[0]; });
+  if (radii.size() != 2 && !same) return std::nullopt;
+  return radii[0] + radii[1];
+}
+
 }  // namespace
+
+RecordCheck::RecordCheck(CheckContext& context) : c_(context), ours_(!foreign(context.recording)) {
+  if (ours_ && !c_.has_supports) radius_between_ = radius_of_all_pairs(c_.recording.scene.scene);
+}
 
 void RecordCheck::contradiction(const std::string& message) {
   c_.find("inconsistent", message + " The recording contradicts itself: it was changed, or written wrongly.", Finding::Severity::warning);
@@ -71,7 +85,7 @@ bool RecordCheck::differ(double said, double right) const {
 
 /// Bounds that were not known are not said, or are infinite.
 void RecordCheck::same_bounds(const char* whose, double lower, double upper) {
-  if (!c_.has_supports) return;
+  if (!c_.has_supports && !radius_between_) return;
   if (differ(lower, lower_)) contradiction(std::string(whose) + " lower bound is " + text_of(lower) + ", but the steps before give " + text_of(lower_) + ".");
   if (differ(upper, upper_)) contradiction(std::string(whose) + " upper bound is " + text_of(upper) + ", but the steps before give " + text_of(upper_) + ".");
 }
@@ -92,9 +106,11 @@ void RecordCheck::judge(const recorded::SupportQueried& e) {
   axis_ = e.direction;
   if (e.phase == Phase::epa) height_ = std::min(height_, d.dot(e.w)), leads_on(e.direction, chosen_normal_, "the face chosen");
   if (e.phase == Phase::mpr) leads_on(e.direction, std::exchange(from_interior_, AnyVector()), "the way from MPR's inner point to the origin", 100 * c_.digits());
+  if (e.phase == Phase::cast && e.iteration != 0 && e.iteration != ray_iteration_ + 1) contradiction("Iteration " + std::to_string(e.iteration) + " of a ray comes after iteration " + std::to_string(ray_iteration_) + ".");
+  if (e.phase == Phase::cast) ray_iteration_ = e.iteration;
   if (e.phase != Phase::gjk) return;
   leads_on(e.direction, std::exchange(towards_, AnyVector()), "the nearest point of the simplex");
-  plane_ = std::max(plane_, -d.dot(e.w)), lower_ = plane_ - c_.radius;
+  plane_ = std::max(plane_, -d.dot(e.w)), lower_ = plane_ - radius();
   const AnyVector first = std::exchange(first_, AnyVector());
   if (asked_.empty() && first.size() > 0 && first != e.direction) contradiction("The first direction is " + text_of(e.direction) + ", but GJK began with " + text_of(first) + ".");
   asked_.insert(asked_.begin(), e.vertex);
@@ -112,7 +128,7 @@ void RecordCheck::judge(const recorded::SimplexReduced& e) {
     if (!contains(e.before, v)) contradiction("Vertex " + std::to_string(v) + " was kept, but \"before\" does not hold it.");
   if (e.closest.size() > 0 && e.barycentric.size() != e.region.size()) contradiction("There are " + std::to_string(e.barycentric.size()) + " weights for " + std::to_string(e.region.size()) + " vertices.");
   simplex_ = e.region;
-  if (e.closest.size() > 0) upper_ = e.closest.norm() - c_.radius;
+  if (e.closest.size() > 0) upper_ = e.closest.norm() - radius();
   if (!some && e.closest.size() > 0) towards_ = -e.closest;
   same_bounds("The", e.lower_bound, e.upper_bound);
 }
@@ -127,7 +143,7 @@ void RecordCheck::judge(const recorded::GjkEnded& e) {
   if (e.status == GjkStatus::iteration_limit && e.iteration < c_.recording.settings.max_iterations)
     contradiction("GJK ended at its limit of " + std::to_string(c_.recording.settings.max_iterations) + " iterations, after " + std::to_string(e.iteration) + ".");
   if (e.status == GjkStatus::within_radius && e.upper_bound > c_.tolerance) contradiction("GJK ended with the cores nearer than the radii, but the upper bound is " + text_of(e.upper_bound) + ".");
-  const bool never = e.status == GjkStatus::aborted || (e.status == GjkStatus::rule_met && c_.recording.settings.stopping == Stopping::bounds) || (e.status == GjkStatus::within_radius && c_.radius == 0);
+  const bool never = e.status == GjkStatus::aborted || (e.status == GjkStatus::rule_met && c_.recording.settings.stopping == Stopping::bounds) || (e.status == GjkStatus::within_radius && radius() == 0);
   if (ours_ && never) contradiction("GJK ended as \"" + status + "\", as it cannot in this scene by this method.");
   same_bounds("GJK's", e.lower_bound, e.upper_bound);
 }
@@ -162,7 +178,7 @@ void RecordCheck::judge(const recorded::PolytopeSeeded& e) {
 }
 
 /// Of the depth it is the lower bound.
-void RecordCheck::judge(const recorded::FaceChosen& e) { chosen_.insert(e.face), upper_ = -e.distance - c_.radius, chosen_normal_ = e.normal; }
+void RecordCheck::judge(const recorded::FaceChosen& e) { chosen_.insert(e.face), upper_ = -e.distance - radius(), chosen_normal_ = e.normal; }
 
 /// The new vertex is the one asked for last. The horizon is a loop, each edge as a removed face has it, and a new face stands on each.
 void RecordCheck::judge(const recorded::PolytopeGrown& e) {
@@ -183,15 +199,15 @@ void RecordCheck::judge(const recorded::PolytopeGrown& e) {
   }
   for (const int number : e.removed) standing_.erase(number);
   add(e.added, true);
-  upper_ = -unknown, lower_ = -height_ - c_.radius;
-  for (const int number : standing_) upper_ = std::max(upper_, -faces_[number].distance - c_.radius);
+  upper_ = -unknown, lower_ = -height_ - radius();
+  for (const int number : standing_) upper_ = std::max(upper_, -faces_[number].distance - radius());
   same_bounds("Minus the polytope's", -e.upper_bound, -e.lower_bound);
 }
 
 /// A face once chosen: the best one, which a later step may have removed. (What shows the bodies apart before there is a polytope to report is none of them.)
 void RecordCheck::judge(const recorded::EpaEnded& e) {
   statuses_.emplace(epa_status_names[static_cast<std::size_t>(e.status)]);
-  lower_ = -height_ - c_.radius;
+  lower_ = -height_ - radius();
   if (e.status == EpaStatus::flat || e.status == EpaStatus::separated) lower_ = upper_ = unknowable;
   if (e.status == EpaStatus::flat && e.face >= 0) contradiction("EPA ended at face " + std::to_string(e.face) + " of a polytope that is flat: it has none.");
   if (e.face < 0 || !faces_.contains(e.face)) return;
@@ -290,7 +306,23 @@ void RecordCheck::judge(const recorded::CastBegan& e) {
   pairs_ = e.pairs;
 }
 void RecordCheck::judge(const recorded::CastAdvanced& e) {
-  if (!looked_at(pairs_, e.pair)) contradiction("Bodies " + std::to_string(e.pair[0]) + " and " + std::to_string(e.pair[1]) + " are none of the cast's pairs.");
+  if (!looked_at(pairs_, e.pair)) return contradiction("Bodies " + std::to_string(e.pair[0]) + " and " + std::to_string(e.pair[1]) + " are none of the cast's pairs.");
+  const bool ray = c_.recording.settings.name == MethodName::ray_cast;
+  int& before = ray ? ray_iteration_ : cast_iteration_;
+  if (e.iteration != before && (ray || e.iteration != before + 1)) contradiction("Iteration " + std::to_string(e.iteration) + " of the cast comes after iteration " + std::to_string(before) + ".");
+  if (!ray && (e.iteration == before ? e.time != cast_time_ : e.time < cast_time_)) contradiction("Time " + text_of(e.time) + " comes after time " + text_of(cast_time_) + ": a round of the cast has one time, and none is before the last.");
+  before = e.iteration, cast_time_ = e.time;
+  if (!ray && radius_between_ && differ(e.distance, upper_)) contradiction("The pair is said to be " + text_of(e.distance) + " apart, but the steps before give " + text_of(upper_) + ".");
+  if (responded_ || e.normal.size() != c_.dimension) return;
+  // Along n the bodies come nearer by (vA - vB) . n, and by no more than |w| times their reach where they turn.
+  const std::vector<Body>& bodies = c_.recording.scene.scene.bodies;
+  const Body &a = bodies[static_cast<std::size_t>(e.pair[0])], &b = bodies[static_cast<std::size_t>(e.pair[1])];
+  const double straight = (a.motion->velocity - b.motion->velocity).dot(e.normal);
+  double turning = 0;
+  for (const Body* body : {&a, &b})
+    if (body->motion->angular_velocity.size() > 0) turning += body->motion->angular_velocity.norm() * reach_of(body->shape, c_.dimension);
+  if (std::abs(e.bound - straight) > turning + 1e-6 * (std::abs(straight) + turning) + 100 * c_.digits() * (a.motion->velocity.norm() + b.motion->velocity.norm()))
+    contradiction("The bound on how fast they come nearer is " + text_of(e.bound) + ", but along the normal they move at " + text_of(straight) + (turning > 0 ? ", and turn at no more than " + text_of(turning) + "." : "."));
 }
 
 void RecordCheck::motion() {
@@ -328,7 +360,7 @@ void RecordCheck::result() {
   }
   if (r.iterations != iterations_) contradiction("The result counts " + std::to_string(r.iterations) + " iterations, the phases " + std::to_string(iterations_) + ".");
   if (c_.recording.scene.scene.query == Query::distance) lower_ = std::max(lower_, 0.0), upper_ = r.intersecting ? unknowable : upper_;
-  if (r.lower_bound && r.upper_bound) same_bounds("The result's", *r.lower_bound, *r.upper_bound);
+  if (c_.has_supports && r.lower_bound && r.upper_bound) same_bounds("The result's", *r.lower_bound, *r.upper_bound);
   const bool more = c_.recording.settings.name == MethodName::sat;  // to find which corners meet, without a trace
   if (r.support_calls < supports_ || (r.support_calls > supports_ && !more)) contradiction("The result counts " + std::to_string(r.support_calls) + " support calls, but " + std::to_string(supports_) + " were made.");
 }
