@@ -313,7 +313,7 @@ void RecordCheck::judge(const recorded::CastAdvanced& e) {
   if (!ray && (e.iteration == before ? e.time != cast_time_ : e.time < cast_time_)) contradiction("Time " + text_of(e.time) + " comes after time " + text_of(cast_time_) + ": a round of the cast has one time, and none is before the last.");
   before = e.iteration, cast_time_ = e.time;
   if (!ray && radius_between_ && differ(e.distance, upper_)) contradiction("The pair is said to be " + text_of(e.distance) + " apart, but the steps before give " + text_of(upper_) + ".");
-  if (responded_ || e.normal.size() != c_.dimension) return;
+  if (responded_ || c_.recording.scene.scene.query != Query::cast) return;
   // Along n the bodies come nearer by (vA - vB) . n, and by no more than |w| times their reach where they turn.
   const std::vector<Body>& bodies = c_.recording.scene.scene.bodies;
   const Body &a = bodies[static_cast<std::size_t>(e.pair[0])], &b = bodies[static_cast<std::size_t>(e.pair[1])];
