@@ -56,10 +56,8 @@ struct Apply {
       if (std::find(e.region.begin(), e.region.end(), v) == e.region.end()) frame.dropped.push_back(v);
     frame.barycentric = e.barycentric;
     frame.closest.reset();
-    if (e.closest.size() > 0) {
-      frame.closest = e.closest;
-      if (!e.closest.isZero(0)) frame.direction = -e.closest, frame.answered = false;
-    }
+    if (e.closest.size() > 0) frame.closest = e.closest;
+    if (e.closest.size() > 0 && !e.closest.isZero(0)) frame.direction = -e.closest, frame.answered = false;
     bounds(e.lower_bound, e.upper_bound);
   }
 
@@ -289,7 +287,9 @@ struct Apply {
     std::vector<Frame::Place> places;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
       Body body = scene.bodies[i];
-      if (i < frame.places.size() && from > 0) body.pose.position = frame.places[i].position, body.pose.matrix = frame.places[i].rotation, body.motion->velocity = frame.places[i].velocity;
+      const bool placed = i < frame.places.size() && from > 0;
+      if (placed) body.pose.position = frame.places[i].position, body.pose.matrix = frame.places[i].rotation;
+      if (placed && body.motion) body.motion->velocity = frame.places[i].velocity;
       const Body at = moved(body, time - from, scene.dimension);
       Frame::Place place{at.pose.position, at.pose.matrix, AnyVector::Zero(scene.dimension), {}};
       if (at.motion) place.velocity = at.motion->velocity, place.spin.assign(at.motion->angular_velocity.begin(), at.motion->angular_velocity.end());

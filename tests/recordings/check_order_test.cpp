@@ -1,11 +1,13 @@
 // Steps of our own recordings that are doubled or left out.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <ostream>
 #include <string>
 
 #include "recordings/check.h"
 #include "recordings/gallery.h"
+#include "recordings/replay.h"
 
 namespace gjkdbg {
 namespace {
@@ -46,6 +48,21 @@ TEST_P(CheckOrder, AStepTooFewIsFound) {
     wrong.events.erase(wrong.events.begin() + static_cast<std::ptrdiff_t>(i));
     EXPECT_FALSE(check(wrong).empty()) << i << " " << kind;
   }
+}
+
+/// Steps of a motion in a scene where nothing moves, and the other way round: judged and shown all the same.
+TEST(CheckOrder, StepsOfOtherScenesAreNamed) {
+  std::vector<Recording> recordings;
+  for (const char* scene : {"cast-bounce", "sim-slope-holds", "2d-squares-apart", "2d-deep"}) recordings.push_back(record(read_scene(read_gallery(GJKDBG_GALLERY).file(scene))));
+  for (const Recording& scene : recordings)
+    for (const Recording& other : recordings) {
+      if (&scene == &other) continue;
+      Recording mixed = scene;
+      const auto begin = other.events.begin();
+      mixed.events.insert(mixed.events.begin() + 2, begin, begin + static_cast<std::ptrdiff_t>(std::min<std::size_t>(40, other.events.size())));
+      EXPECT_FALSE(check(mixed).empty());
+      for (std::size_t step = 0; step < std::min<std::size_t>(60, mixed.events.size()); ++step) frame_at(mixed, step);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, CheckOrder,
