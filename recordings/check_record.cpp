@@ -27,7 +27,7 @@ std::optional<double> radius_of_all_pairs(const Scene& scene) {
   std::vector<double> radii;
   for (const Body& body : scene.bodies) radii.push_back(WorldSupport(Body{body.name, convex_parts(body.shape).front(), body.pose}, scene.dimension).radius());
   const bool same = std::all_of(radii.begin(), radii.end(), [&](double r) { return r == radii[0]; });
-  if (radii.size() != 2 && !same) return std::nullopt;
+  if (radii.size() < 2 || (radii.size() > 2 && !same)) return std::nullopt;
   return radii[0] + radii[1];
 }
 
@@ -313,7 +313,9 @@ void RecordCheck::judge(const recorded::CastAdvanced& e) {
   if (!ray && (e.iteration == before ? e.time != cast_time_ : e.time < cast_time_)) contradiction("Time " + text_of(e.time) + " comes after time " + text_of(cast_time_) + ": a round of the cast has one time, and none is before the last.");
   before = e.iteration, cast_time_ = e.time;
   if (!ray && radius_between_ && differ(e.distance, upper_)) contradiction("The pair is said to be " + text_of(e.distance) + " apart, but the steps before give " + text_of(upper_) + ".");
-  if (responded_ || c_.recording.scene.scene.query != Query::cast) return;
+  const int count = static_cast<int>(c_.recording.scene.scene.bodies.size());
+  const bool exist = std::min(e.pair[0], e.pair[1]) >= 0 && std::max(e.pair[0], e.pair[1]) < count;
+  if (responded_ || !exist || c_.recording.scene.scene.query != Query::cast) return;
   // Along n the bodies come nearer by (vA - vB) . n, and by no more than |w| times their reach where they turn.
   const std::vector<Body>& bodies = c_.recording.scene.scene.bodies;
   const Body &a = bodies[static_cast<std::size_t>(e.pair[0])], &b = bodies[static_cast<std::size_t>(e.pair[1])];

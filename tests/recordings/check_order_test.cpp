@@ -65,6 +65,18 @@ TEST(CheckOrder, StepsOfOtherScenesAreNamed) {
     }
 }
 
+/// Pairs of bodies that there are not, and a motion of one body.
+TEST(CheckOrder, BodiesThatAreNotThereAreNamed) {
+  Recording wrong = recorded({"cast-bounce", MethodName::gjk});
+  for (Event& event : wrong.events) {
+    if (auto* began = std::get_if<recorded::CastBegan>(&event)) began->pairs = {{7, 9}, {-1, 0}};
+    if (auto* advanced = std::get_if<recorded::CastAdvanced>(&event)) advanced->pair = {7, 9};
+  }
+  EXPECT_FALSE(check(wrong).empty());
+  for (std::size_t step = 0; step < wrong.events.size(); ++step) frame_at(wrong, step);
+  EXPECT_TRUE(check(recorded({"sim-spinning-box", MethodName::gjk})).empty());
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, CheckOrder,
                          testing::Values(Run{"box-box-deep", MethodName::gjk}, Run{"box-box-deep", MethodName::mpr}, Run{"box-box-deep", MethodName::sat}, Run{"2d-squares-apart", MethodName::gjk},
                                          Run{"boolean-hit-3d", MethodName::gjk_boolean}, Run{"pair-capsule-cone", MethodName::projections}, Run{"cast-rotating-rod", MethodName::gjk}));
