@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "algo/flat_feature.h"
 
@@ -12,6 +13,7 @@ namespace {
 using Points = std::vector<AnyVector>;
 
 constexpr double alignment_limit = 1 - 1e-9;  ///< cosine: a face whose normal is this near the pair's can be the reference
+constexpr double parallel = 1e-9;             ///< sine: lines at more share a point only
 constexpr double edge_on = 1e-6;              ///< sine: a face that is seen at less has no part of its own behind another
 
 /// The part of a polygon (or of a segment, two corners) on the inner side of a plane: outward . (x - on) <= 0.
@@ -128,6 +130,28 @@ Points disc_behind_disc(const Disc& incident, const Disc& reference, const Eigen
   return out;
 }
 
+// --- Lines: where no face looks along the normal, an edge or the line on a round side may still lie along another. ---
+
+/// The line of a feature that lies across n and farthest along it: the feature itself, or the edge of a face.
+std::optional<Points> line_across(const FlatFeature& feature, const AnyVector& n) {
+  if (n.size() != 3 || feature.points.size() < 2) return std::nullopt;
+  const auto height = [&](const Points& line) { return n.dot(line[0] + line[1]); };
+  Points best{feature.points[0], feature.points[1]};
+  for (std::size_t i = 1; i < feature.points.size(); ++i)
+    if (const Points edge{feature.points[i], feature.points[(i + 1) % feature.points.size()]}; height(edge) > height(best)) best = edge;
+  const AnyVector along = best[1] - best[0];
+  if (!(std::abs(n.dot(along)) <= parallel * along.norm()) || along.isZero(0)) return std::nullopt;
+  return best;
+}
+
+/// The part of b beside a, if both lie across n and along one another.
+Points line_beside_line(const std::optional<Points>& a, const std::optional<Points>& b) {
+  if (!a || !b) return {};
+  const Eigen::Vector3d u = (*a)[1] - (*a)[0], v = (*b)[1] - (*b)[0];
+  if (u.cross(v).norm() > parallel * u.norm() * v.norm()) return {};
+  return clipped(clipped(*b, u, (*a)[1]), -u, (*a)[0]);
+}
+
 /// The points of the incident feature's outline that lie behind the reference, or above it, and of the reference's outline above the incident feature.
 Points common_outline(const FlatFeature& incident, const FlatFeature& reference, const AnyVector& n) {
   if (incident.disc && std::abs(n.dot(incident.disc->normal)) < edge_on) return {};
@@ -165,9 +189,13 @@ std::vector<ContactPoint> contact_points(const Body& a, const Body& b, const Res
   if (!face_a || !face_b) return witness;
   const bool reference_is_a = face_a->alignment >= face_b->alignment - 1e-12;
   const FlatFeature &reference = reference_is_a ? *face_a : *face_b, &incident = reference_is_a ? *face_b : *face_a;
-  if (reference.alignment < alignment_limit) return witness;
-  const AnyVector outward = reference_is_a ? n : AnyVector(-n), on_face = reference.disc ? AnyVector(reference.disc->center) : reference.points[0];
   const double size = reference.size + incident.size + reference.radius + incident.radius;
+  if (reference.alignment < alignment_limit) {
+    const auto line_a = line_across(*face_a, n), line_b = line_across(*face_b, -n);
+    const auto contacts = behind(line_beside_line(line_a, line_b), line_a ? (*line_a)[0] : n, n, face_a->radius, face_b->radius, size, true);
+    return contacts.empty() ? witness : contacts;
+  }
+  const AnyVector outward = reference_is_a ? n : AnyVector(-n), on_face = reference.disc ? AnyVector(reference.disc->center) : reference.points[0];
   const auto contacts = behind(common_outline(incident, reference, outward), on_face, outward, reference.radius, incident.radius, size, reference_is_a);
   return contacts.empty() ? witness : contacts;
 }

@@ -3,8 +3,9 @@
 // Of the flat parts of both that look most along the normal (algo/flat_feature.h) the one that looks along it best is the reference; the other one is clipped
 // to its sides (Sutherland, Hodgman 1974), and every corner left that lies behind the reference is a contact point with its own depth (Gregorius, "The
 // Separating Axis Test between Convex Polyhedra", GDC 2013). The end of a cylinder or a cone is a disc: of its outline count the rim's points an eighth of the
-// way around apart, the deepest one first, and those where it meets the other outline. Where nothing flat looks along the normal (edge on edge, round
-// bodies), the pair of witness points is the contact.
+// way around apart, the deepest one first, and those where it meets the other outline. Where no face looks along the normal, lines that lie along
+// one another (capsules or cylinders side by side, an edge on one of them) share a piece, and its two ends are the contacts; else (edge across edge, round bodies)
+// the pair of witness points is.
 #pragma once
 
 #include <vector>

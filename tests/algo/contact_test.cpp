@@ -94,6 +94,25 @@ TEST(Contact, LyingBodiesTouchAlongALineAndTiltedOnesAtAPoint) {
   EXPECT_EQ(on_table(cone, 0, 0.45, upside_down).size(), 1U);
 }
 
+TEST(Contact, LinesAlongOneAnotherShareAPieceAndAcrossAPoint) {
+  const std::string capsule = R"({"type": "capsule", "radius": 0.2, "half_height": 0.5})", turned = R"({"axis": [1, 0, 0], "angle": 45})";
+  const auto along_x = [](const std::string& shape, const std::string& position) { return placed(shape, position, lying); };
+  const auto ends = [](std::vector<ContactPoint> found) {
+    std::sort(found.begin(), found.end(), [](const auto& p, const auto& q) { return p.point_a[0] < q.point_a[0]; });
+    EXPECT_EQ(found.size(), 2U);
+    return found.size() == 2 ? std::pair(found[0].point_a[0], found[1].point_a[0]) : std::pair(0.0, 0.0);
+  };
+  for (const auto& other : {along_x(capsule, "[0.3, 0.35, 0]"), along_x(R"({"type": "cylinder", "radius": 0.2, "half_height": 0.5})", "[0.3, 0.35, 0]"),
+                            placed(R"({"type": "box", "half_extents": [0.5, 0.1, 0.1]})", "[0.3, 0.3, 0]", turned)}) {
+    const auto shared = ends(contacts(along_x(capsule, "[0, 0, 0]"), other));  // from -0.2, where the other begins, to 0.5, where the capsule's core ends
+    EXPECT_NEAR(shared.first, -0.2, 1e-9) << other;
+    EXPECT_NEAR(shared.second, 0.5, 1e-9) << other;
+  }
+  EXPECT_EQ(contacts(along_x(capsule, "[0, 0, 0]"), along_x(capsule, "[1.3, 0, 0]")).size(), 1U) << "end to end";
+  EXPECT_EQ(contacts(along_x(capsule, "[0, 0, 0]"), along_x(capsule, "[1.1, 0.2, 0]")).size(), 1U) << "past one another";
+  EXPECT_EQ(contacts(along_x(capsule, "[0, 0, 0]"), placed(capsule, "[0, 0.35, 0]", R"({"axis": [1, 0, 0], "angle": 90})")).size(), 1U) << "across";
+}
+
 /// Cylinders, cones and boxes, faces flat on one another or not, with margins: every point lies in both bodies and no deeper than they are (`check`).
 TEST(Contact, EveryPointLiesInBothBodies) {
   RandomScenes random(7);
@@ -131,6 +150,24 @@ TEST(Contact, WhatStandsStandsStill) {
     for (const FinalState& s : {upright, tilted}) {
       EXPECT_NEAR(s.position[1], 0.5, 2e-3) << shape;
       EXPECT_LE(s.velocity.norm() + AnyVector(Eigen::Map<const Eigen::Vector3d>(s.angular_velocity.data())).norm(), 1e-6) << shape;
+    }
+  }
+}
+
+/// On single points the upper log rocked end over end and drove the lower ones apart.
+TEST(Contact, APileOfLogsStaysLevel) {
+  const std::string rough = R"(, "friction": 0.6)", along_z = R"({"axis": [1, 0, 0], "angle": 90})";
+  for (const std::string shape : {"cylinder", "capsule"}) {
+    const auto log = [&](const std::string& position) { return ", " + placed(R"({"type": ")" + shape + R"(", "radius": 0.5, "half_height": 1})", position, along_z, rough); };
+    const auto scene = scene_of(R"("query": "simulate", "gravity": [0, -9.81, 0], "time_step": 0.01, "steps": 400)",
+                                placed(R"({"type": "box", "half_extents": [5, 0.5, 5]})", "[0, -0.5, 0]", "", R"(, "static": true)" + rough) + log("[-0.5, 0.5, 0]") + log("[0.5, 0.5, 0.1]") +
+                                    log("[0, 1.366, 0.3]"));
+    const auto end = record(scene).result.bodies.value();
+    EXPECT_NEAR(end[2].position[0] - end[1].position[0], 1, 0.01) << shape;
+    EXPECT_NEAR(end[3].position[1], 1.366, 0.01) << shape;
+    for (int i = 1; i < 4; ++i) {
+      const auto& q = end[static_cast<std::size_t>(i)].orientation;
+      EXPECT_LE(std::abs((Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * Eigen::Vector3d::UnitY()).y()), 1e-3) << shape << " " << i << " is level";
     }
   }
 }
