@@ -361,8 +361,15 @@ class Program(unittest.TestCase):
         ladder = {(p["shapes"], p["distance"], p["method"]): p for p in chart["ladder"]}
         self.assertLess(ladder["ellipsoids", 1, "plain"]["iterations"], ladder["ellipsoids", 1, "Nesterov"]["iterations"])  # as published
         self.assertLess(2 * ladder["ellipsoids", 0.001, "Newton"]["iterations"], ladder["ellipsoids", 0.001, "plain"]["iterations"])
-        for drawing in ("chart.svg", "chart.png", "gap.svg", "gap.png"):
-            self.assertGreater((folder / drawing).stat().st_size, 10000)
+        # What is published stands beside what is measured; the spheres come nearer to the sphere with their vertices, and never quite.
+        self.assertEqual(ladder["ellipsoids", 0.001, "Nesterov"]["published"], {"iterations": 7, "deviation": 2})
+        self.assertEqual(ladder["hulls of 2500", 0.001, "plain"]["published_nanoseconds"], 4100)
+        errors = [price[f"the same as hulls of {n} vertices"]["worst_error"] for n in (42, 162, 642, 2562, 10242)]
+        self.assertEqual(errors, sorted(errors, reverse=True))
+        self.assertTrue(1e-5 < errors[-1] < 1e-3 < errors[0] < 0.3, errors)
+        for drawing in ("chart", "gap", "ladder", "price", "motion"):
+            for kind in ("svg", "png"):
+                self.assertGreater((folder / f"{drawing}.{kind}").stat().st_size, 10000, drawing)
 
     def test_chart_of_chosen_families_and_methods(self):
         folder = self.path / "chart"
@@ -370,6 +377,7 @@ class Program(unittest.TestCase):
         chart = json.loads((folder / "chart.json").read_text())
         self.assertEqual([f["name"] for f in chart["families"]], ["capsules-apart", "octagons-2d"])
         self.assertEqual({p["method"] for f in chart["families"] for p in f["points"]}, {"signed volumes", "MPR", "MPR, float"})
+        self.assertTrue((folder / "chart.png").exists() and not (folder / "ladder.png").exists())
         self.refused(run("chart", "--families", "bananas", "-o", folder), "bananas")
         self.refused(run("chart", "--methods", "bananas", "-o", folder), "bananas")
 

@@ -28,7 +28,11 @@ class Lab : public Window {
     return write("chart.json", std::string(R"({"format": "gjk-chart", "version": 1, "methods": {"Johnson": {"name": "gjk", "closest_point": "johnson"}}, "families": [
       {"name": "boxes", "title": "boxes", "pairs": 4, "scenes": {"3": )") + scene_text + R"(}, "points": [
         {"method": "Johnson", "tolerance": 1e-6, "nanoseconds": 500, "worst_error": 1e-8, "wrong": 0, "front": true, "worst_pair": 3},
-        {"method": "FCL", "tolerance": 1e-6, "nanoseconds": 5000, "worst_error": 0, "wrong": 1, "front": false, "worst_pair": 2}]}], "price": [], "ladder": [], "motion": []})");
+        {"method": "FCL", "tolerance": 1e-6, "nanoseconds": 5000, "worst_error": 0, "wrong": 1, "front": false, "worst_pair": 2}]}],
+      "price": [{"what": "spheres", "nanoseconds": 90, "worst_error": 0, "supports": 2}, {"what": "the same as hulls", "nanoseconds": 500, "worst_error": 0.1, "supports": 5}],
+      "ladder": [{"shapes": "ellipsoids", "distance": 0.001, "method": "plain", "iterations": 18, "deviation": 2, "nanoseconds": 900, "published": {"iterations": 16, "deviation": 5}},
+                 {"shapes": "hulls of 33", "distance": 0.001, "method": "Newton", "iterations": 8, "deviation": 1, "nanoseconds": 800, "vertices": 33, "published_nanoseconds": 800}],
+      "motion": [{"family": "free box", "method": "rk4", "parameter": 0.01, "nanoseconds": 234, "worst_error": 1e-9}]})");
   }
   std::filesystem::path atlas() {
     return write("atlas.json", std::string(R"({"format": "gjk-atlas", "version": 1, "families": [{"name": "K1", "what": "cubes kiss", "cells": [
@@ -80,6 +84,51 @@ TEST_F(Lab, ADotOpensItsWorstPairWithItsMethodAndTolerance) {
   EXPECT_FALSE(app.show_lab);
   EXPECT_EQ(session.recording().settings.closest_point, ClosestPoint::johnson);
   EXPECT_DOUBLE_EQ(session.recording().settings.tolerance, 1e-6);
+}
+
+TEST_F(Lab, AllOfAChartIsShown) {
+  app.open(chart());
+  ASSERT_TRUE(app.message.empty()) << app.message;
+  ASSERT_EQ(app.measured.chart->ladder.size(), 2u);
+  EXPECT_EQ(app.measured.chart->ladder[0].published, 16);
+  EXPECT_EQ(app.measured.chart->ladder[1].published_nanoseconds, 800);
+  EXPECT_EQ(app.measured.chart->price.size(), 2u);
+  EXPECT_EQ(app.measured.chart->motion.size(), 1u);
+  std::vector<Image> pictures;
+  for (const auto& [x, view] : {std::pair(40.f, App::ChartView::error), {118, App::ChartView::gap}, {206, App::ChartView::iterations}, {311, App::ChartView::price}, {408, App::ChartView::motion}}) {
+    host.click(x, 107);
+    EXPECT_EQ(app.chart_view, view);
+    host.move(2, 2);
+    host.frame(), host.frame();
+    for (const Image& other : pictures) EXPECT_NE(host.image().rgb, other.rgb);
+    pictures.push_back(host.image());
+  }
+  // Where something is pointed at, it is told: on the way down from the top over the one dot of a line.
+  for (const auto& [view, x] : {std::pair(App::ChartView::iterations, 209.f), {App::ChartView::motion, 638.f}}) {
+    app.chart_view = view;
+    host.move(2, 2);
+    host.frame(), host.frame();
+    const Image before = host.image();
+    int told = 0;
+    for (float y = 200; y < 780; y += 10) {
+      host.move(x, y);
+      told += host.image().rgb != before.rgb;
+    }
+    EXPECT_GT(told, 0);
+    EXPECT_LT(told, 8);
+  }
+}
+
+TEST_F(Lab, AChartOfSomeFamiliesHasNoMore) {
+  app.open(write("chart.json", R"({"format": "gjk-chart", "version": 1, "families": []})"));
+  ASSERT_TRUE(app.message.empty()) << app.message;
+  for (const App::ChartView view : {App::ChartView::error, App::ChartView::gap, App::ChartView::iterations, App::ChartView::price, App::ChartView::motion}) {
+    app.chart_view = view;
+    host.frame(), host.frame();
+    EXPECT_TRUE(app.message.empty());
+  }
+  app.open(write("broken.json", R"({"format": "gjk-chart", "version": 1, "families": [], "price": [{"what": "spheres", "nanoseconds": 0}]})"));
+  EXPECT_NE(app.message.find("/price/0/nanoseconds"), std::string::npos) << app.message;
 }
 
 TEST_F(Lab, ACellOpensTheSceneThatFails) {

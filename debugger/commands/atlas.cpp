@@ -33,7 +33,7 @@ struct AtlasCommand {
     const std::filesystem::path folder(output);
     write_output((folder / "atlas.csv").string(), atlas_csv(atlas));
     write_output((folder / "atlas.json").string(), atlas_json(atlas));
-    draw_both([&](const std::string& terminal, const std::string& file) { return atlas_gnuplot(atlas, terminal, file); }, folder / "atlas", 500 + 42 * static_cast<int>(atlas.methods.size()));
+    draw_both([&](const std::string& terminal, const std::string& file) { return atlas_gnuplot(atlas, terminal, file); }, folder / "atlas", 500 + 42 * static_cast<int>(atlas.methods.size()), 1000);
     print(atlas);
     return compare(atlas, kept) ? exit_difference : exit_done;
   }

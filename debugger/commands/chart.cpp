@@ -37,9 +37,9 @@ bool LabProgress::operator()(double share) {
   return !interrupted;
 }
 
-void draw_both(const std::function<std::string(const std::string&, const std::string&)>& commands, const std::filesystem::path& stem, int width) {
+void draw_both(const std::function<std::string(const std::string&, const std::string&)>& commands, const std::filesystem::path& stem, int width, int height) {
   const std::string svg = stem.string() + ".svg", png = stem.string() + ".png";
-  const std::string size = " " + std::to_string(width) + ",1000";
+  const std::string size = " " + std::to_string(width) + "," + std::to_string(height);
   const bool drawn = run_gnuplot(commands("svg size" + size + " font 'Inter,12' background '#ffffff'", svg)) && run_gnuplot(commands("pngcairo size" + size + " font 'Inter,11'", png));
   if (!drawn) std::cerr << "gjkdbg: gnuplot is not installed or failed: no SVG and PNG, only the numbers\n";
 }
@@ -58,10 +58,14 @@ struct ChartCommand {
     const std::filesystem::path folder(output);
     write_output((folder / "chart.csv").string(), chart_csv(chart));
     write_output((folder / "chart.json").string(), chart_json(chart));
-    draw_both([&](const std::string& terminal, const std::string& file) { return chart_gnuplot(chart, terminal, file); }, folder / "chart");
-    draw_both([&](const std::string& terminal, const std::string& file) { return gap_gnuplot(chart, terminal, file); }, folder / "gap");
+    for (const ChartPicture& picture : chart_pictures())
+      if (picture.has_something(chart)) draw_both([&](const std::string& terminal, const std::string& file) { return picture.drawing(chart, terminal, file); }, folder / picture.name, picture.width, picture.height);
     print(chart);
     return exit_done;
+  }
+
+  static std::string published(const std::array<double, 2>& iterations) {
+    return "  (" + std::to_string(static_cast<int>(iterations[0])) + " +- " + std::to_string(static_cast<int>(iterations[1])) + ")";
   }
 
   static void print(const Chart& chart) {
@@ -76,10 +80,11 @@ struct ChartCommand {
     for (const PricePoint& p : chart.price)
       std::cout << "  " << std::left << std::setw(42) << p.what << std::right << std::setw(8) << std::fixed << std::setprecision(0) << p.nanoseconds << std::defaultfloat << std::setprecision(3) << " ns, "
                 << p.supports << " supports, worst error " << std::setprecision(2) << p.worst_error << "\n";
-    if (!chart.ladder.empty()) std::cout << "Iterations by distance (in brackets: Montaut et al. 2024, table III a)\n";
+    if (!chart.ladder.empty()) std::cout << "Iterations by distance, time (in brackets: Montaut et al. 2024, table III a, and 2022, table I)\n";
     for (const LadderPoint& p : chart.ladder)
       std::cout << "  " << std::left << std::setw(16) << p.shapes << std::setw(10) << p.method << std::right << std::setw(8) << std::defaultfloat << p.distance << std::fixed << std::setprecision(1) << std::setw(8)
-                << p.mean << " +- " << p.deviation << (p.published.empty() ? "" : "  (" + p.published + ")") << "\n";
+                << p.mean << " +- " << p.deviation << (p.published ? published(*p.published) : "") << std::setprecision(0) << std::setw(10) << p.nanoseconds << " ns"
+                << (p.published_nanoseconds ? "  (" + std::to_string(static_cast<int>(*p.published_nanoseconds)) + ")" : "") << "\n";
     if (!chart.motion.empty()) std::cout << "Motion: casts by tolerance (error: how early), integrators by step (error: energy)\n";
     for (const MotionPoint& p : chart.motion)
       std::cout << "  " << std::left << std::setw(16) << p.family << std::setw(26) << p.method << std::setw(8) << std::defaultfloat << p.parameter << std::right << std::setw(9) << std::fixed << std::setprecision(0)

@@ -19,7 +19,7 @@ class LabProgress {
   std::chrono::steady_clock::time_point began_;
 };
 
-/// Draws STEM.svg and STEM.png by gnuplot; `commands(terminal, file)` are what it is told. Says so when gnuplot is not there. `width` in pixels.
-void draw_both(const std::function<std::string(const std::string&, const std::string&)>& commands, const std::filesystem::path& stem, int width = 1400);
+/// Draws STEM.svg and STEM.png by gnuplot; `commands(terminal, file)` are what it is told. Says so when gnuplot is not there. Sizes in pixels.
+void draw_both(const std::function<std::string(const std::string&, const std::string&)>& commands, const std::filesystem::path& stem, int width, int height);
 
 }  // namespace gjkdbg

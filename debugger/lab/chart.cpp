@@ -137,7 +137,7 @@ std::vector<Reference> meant(const std::vector<PriceRow>& rows, const PriceRow& 
 }
 
 PricePoint price_of(const std::vector<PriceRow>& rows, const PriceRow& row, int rounds) {
-  PricePoint point{row.what, 0, 0, 0};
+  PricePoint point{row.what, 0, 0, 0, row.query == Query::penetration};
   const std::vector<Reference> truth = meant(rows, row);
   Pairs pairs;
   std::vector<Settings> settings;
@@ -168,33 +168,59 @@ void measure_family(const ChartFamily& family, const std::vector<Reference>& ref
   }
 }
 
+/// The ways of GJK that the ladder compares.
+Method ladder_method(int way, double distance) {
+  Method method;
+  method.name = way == 0 ? MethodName::gjk : MethodName::gjk_accelerated;
+  if (way > 0) method.acceleration = static_cast<Acceleration>(way - 1);
+  method.penetration = Penetration::none;
+  method.tolerance = std::min(0.5, 5e-9 / (distance * distance));
+  return method;
+}
+
+LadderPoint ladder_point(const std::string& shapes, const std::vector<Scene>& scenes, double distance, int way, int rounds) {
+  static constexpr const char* names[] = {"plain", "Nesterov", "Polyak", "Newton"};
+  LadderPoint point;
+  point.shapes = shapes, point.method = names[way], point.distance = distance;
+  double sum = 0, squares = 0;
+  Pairs pairs;
+  std::vector<Settings> settings;
+  for (const Scene& scene : scenes) {
+    pairs.push_back(prepared(scene, Scalar::double_precision));
+    settings.push_back(resolve_settings(ladder_method(way, distance), scene));
+    const double k = pairs.back()->run(settings.back(), Query::penetration).iterations;
+    sum += k, squares += k * k;
+  }
+  const double n = static_cast<double>(scenes.size());
+  point.mean = sum / n, point.deviation = std::sqrt(std::max(0.0, squares / n - point.mean * point.mean));
+  point.nanoseconds = time_of(pairs.size(), rounds, [&](std::size_t i) { return pairs[i]->run(settings[i], Query::penetration); });
+  return point;
+}
+
 /// GJK's iterations by distance, with plain steps, both momenta and Newton's directions, stopped where the paper stops: at a duality gap 2 v.(v - w) of 1e-8. With the
 /// plane's bound p = v.w / |v| that is |v| - p <= 5e-9 / |v|, relative to |v| a tolerance of 5e-9 / |v|^2.
-std::vector<LadderPoint> ladder(bool quick) {
-  struct Rung { double distance; const char *plain, *nesterov; };
-  static constexpr Rung rungs[] = {{-0.05, "6 +- 2", "6 +- 3"}, {-0.001, "", ""}, {1e-4, "", ""}, {0.001, "16 +- 5", "7 +- 2"}, {0.1, "", ""}, {1, "4 +- 1", "13 +- 4"}};
+std::vector<LadderPoint> ladder(bool quick, int rounds) {
+  struct Rung { double distance; std::optional<std::array<double, 2>> plain, nesterov; };
+  static constexpr Rung rungs[] = {{-0.05, {{6, 2}}, {{6, 3}}}, {-0.001, {}, {}}, {1e-4, {}, {}}, {0.001, {{16, 5}}, {{7, 2}}}, {0.01, {}, {}}, {0.1, {}, {}}, {1, {{4, 1}}, {{13, 4}}}};
+  struct Hulls { int vertices; double plain, nesterov; };
+  static constexpr Hulls hulls[] = {{33, 800, 800}, {141, 1200, 1000}, {626, 1800, 1400}, {2500, 4100, 2700}};
   std::vector<LadderPoint> out;
-  const auto add = [&](const std::string& shapes, const std::vector<Scene>& scenes, const Rung& rung, bool published) {
-    for (const int way : {0, 1, 2, 3}) {
-      Method method;
-      method.name = way == 0 ? MethodName::gjk : MethodName::gjk_accelerated;
-      if (way > 0) method.acceleration = static_cast<Acceleration>(way - 1);
-      method.penetration = Penetration::none;
-      method.tolerance = std::min(0.5, 5e-9 / (rung.distance * rung.distance));
-      double sum = 0, squares = 0;
-      for (const Scene& scene : scenes) {
-        const double k = prepared(scene, Scalar::double_precision)->run(resolve_settings(method, scene), Query::penetration).iterations;
-        sum += k, squares += k * k;
-      }
-      const double n = static_cast<double>(scenes.size()), mean = sum / n;
-      static constexpr const char* names[] = {"plain", "Nesterov", "Polyak", "Newton"};
-      out.push_back({shapes, names[way], rung.distance, mean, std::sqrt(std::max(0.0, squares / n - mean * mean)),
-                     published && way < 2 ? (way == 0 ? rung.plain : rung.nesterov) : ""});
+  for (const Rung& rung : rungs) {
+    const std::vector<Scene> scenes = ladder_ellipsoids(quick ? 60 : 400, rung.distance);
+    for (int way = 0; way < 4; ++way) {
+      out.push_back(ladder_point("ellipsoids", scenes, rung.distance, way, rounds));
+      if (way < 2) out.back().published = way == 0 ? rung.plain : rung.nesterov;
     }
-  };
-  for (const Rung& rung : rungs) add("ellipsoids", ladder_ellipsoids(quick ? 60 : 400, rung.distance), rung, true);
-  for (const int vertices : {33, 141, 626, 2500})
-    for (const Rung& rung : {rungs[3], rungs[5]}) add("hulls of " + std::to_string(vertices), hull_pairs(quick ? 5 : 20, vertices, rung.distance), rung, false);
+  }
+  for (const Hulls& hull : hulls)
+    for (const double distance : {0.001, 1.0}) {
+      const std::vector<Scene> scenes = hull_pairs(quick ? 5 : 20, hull.vertices, distance);
+      for (int way = 0; way < 4; ++way) {
+        out.push_back(ladder_point("hulls of " + std::to_string(hull.vertices), scenes, distance, way, rounds));
+        out.back().vertices = hull.vertices;
+        if (way < 2 && distance < 0.1) out.back().published_nanoseconds = way == 0 ? hull.plain : hull.nesterov;
+      }
+    }
   return out;
 }
 
@@ -223,7 +249,7 @@ Chart make_chart(const ChartOptions& options, const std::function<bool(double)>&
   if (usual) {
     const std::vector<PriceRow> rows = price_rows(count);
     for (const PriceRow& row : rows) chart.price.push_back(price_of(rows, row, rounds));
-    chart.ladder = ladder(quick);
+    chart.ladder = ladder(quick, rounds);
     chart.motion = motion_points(quick);
   }
   progress(1);

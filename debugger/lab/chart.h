@@ -1,7 +1,10 @@
 // Speed against accuracy: every method at every tolerance on the same pairs in one run.
 #pragma once
 
+#include <array>
 #include <functional>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,13 +39,18 @@ struct ChartPanel {
 struct PricePoint {
   std::string what;
   double nanoseconds = 0, worst_error = 0, supports = 0;  ///< error against what was meant: the sphere, the rectangle
+  bool error_known = false;                               ///< of a query that asks for the distance and the depth
 };
 
-/// Mean and standard deviation of GJK's iterations by distance, as in Montaut et al. 2024, table III a.
+/// GJK's steps by distance, as in Montaut et al. 2024, table III a, and its time on hulls, as in Montaut et al. 2022, table I.
 struct LadderPoint {
   std::string shapes, method;
-  double distance = 0, mean = 0, deviation = 0;
-  std::string published;  ///< for this category there; empty: not published
+  double distance = 0;
+  double mean = 0, deviation = 0;  ///< of the iterations
+  double nanoseconds = 0;          ///< a query
+  int vertices = 0;                ///< of a hull; 0: ellipsoids
+  std::optional<std::array<double, 2>> published;  ///< iterations of this category there: mean and deviation
+  std::optional<double> published_nanoseconds;     ///< of hulls of so many vertices there (others, -0.1 to 0.1 apart, on an Apple M1 Max)
 };
 
 struct Chart {
@@ -61,12 +69,20 @@ struct ChartOptions {
 /// `progress(share done)` returns false to stop: what was measured until then is returned.
 Chart make_chart(const ChartOptions& options, const std::function<bool(double)>& progress);
 
+std::string number_text(double x, const char* format = "%.6g");
 std::string chart_csv(const Chart& chart);
 std::string chart_json(const Chart& chart);
-/// Commands for gnuplot that draw the chart with the given terminal into `file`.
-std::string chart_gnuplot(const Chart& chart, const std::string& terminal, const std::string& file);
-/// The same with the certified gap in place of the error: what it takes to be sure.
-std::string gap_gnuplot(const Chart& chart, const std::string& terminal, const std::string& file);
+/// Commands for gnuplot that draw a picture with the given terminal into `file`.
+using Drawing = std::string (*)(const Chart& chart, const std::string& terminal, const std::string& file);
+struct ChartPicture {
+  const char* name;  ///< the file's stem
+  int width, height;
+  bool (*has_something)(const Chart& chart);
+  Drawing drawing;
+};
+/// What a chart is drawn as: time against the error; against the certified gap, what it takes to be sure; steps by distance; the price of modelling too
+/// much; motion.
+std::span<const ChartPicture> chart_pictures();
 
 /// Pipes commands through gnuplot. False when it is not installed or fails.
 bool run_gnuplot(const std::string& commands);

@@ -1,8 +1,10 @@
 #include "debugger/lab/families.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <random>
 
@@ -175,6 +177,40 @@ std::vector<Scene> pairs_of(const Recipe& recipe, int pairs) {
   return out;
 }
 
+/// An icosahedron whose triangles are cut into four until there are so many vertices, 10 * 4^k + 2, all of them on the unit sphere.
+std::vector<Eigen::Vector3d> icosphere(int vertices) {
+  std::vector<Eigen::Vector3d> points;
+  for (const int axis : {0, 1, 2})
+    for (const double one : {-1.0, 1.0})
+      for (const double golden : {-std::numbers::phi, std::numbers::phi}) {
+        Eigen::Vector3d p = Eigen::Vector3d::Zero();
+        p[(axis + 1) % 3] = one, p[(axis + 2) % 3] = golden;
+        points.push_back(p.normalized());
+      }
+  const double edge = 4 / (1 + std::numbers::phi * std::numbers::phi);  // squared: 2 / sqrt(1 + phi^2) long
+  std::vector<std::array<int, 3>> triangles;
+  const auto beside = [&](int i, int j) { return std::abs((points[static_cast<std::size_t>(i)] - points[static_cast<std::size_t>(j)]).squaredNorm() - edge) < 1e-9; };
+  for (int i = 0; i < 12; ++i)
+    for (int j = i + 1; j < 12; ++j)
+      for (int k = j + 1; k < 12; ++k)
+        if (beside(i, j) && beside(j, k) && beside(k, i)) triangles.push_back({i, j, k});
+  while (static_cast<int>(points.size()) < vertices) {
+    std::map<std::pair<int, int>, int> middles;
+    const auto middle = [&](int i, int j) {
+      const auto [at, added] = middles.try_emplace(std::minmax(i, j), static_cast<int>(points.size()));
+      if (added) points.push_back((points[static_cast<std::size_t>(i)] + points[static_cast<std::size_t>(j)]).normalized());
+      return at->second;
+    };
+    std::vector<std::array<int, 3>> finer;
+    for (const auto& [i, j, k] : triangles) {
+      const int ij = middle(i, j), jk = middle(j, k), ki = middle(k, i);
+      for (const auto& t : {std::array{i, ij, ki}, {j, jk, ij}, {k, ki, jk}, {ij, jk, ki}}) finer.push_back(t);
+    }
+    triangles = std::move(finer);
+  }
+  return points;
+}
+
 }  // namespace
 
 std::vector<std::string> chart_family_names() {
@@ -222,17 +258,15 @@ std::vector<PriceRow> price_rows(int pairs) {
   for (int i = 0; i < pairs; ++i) boxes.push_back(maker.pair([&] { return maker.box(); }, i % 2 == 0 ? 0.3 : -0.1));
   for (int i = 0; i < pairs; ++i) flat.push_back(maker.pair([&] { return maker.box(2); }, 0.3, 2));
   rows.push_back({"spheres as centre and radius", spheres, Query::penetration});
-  for (const int vertices : {42, 162, 642, 2562}) {
-    std::vector<Scene> hulls = spheres;
+  for (const int vertices : {42, 162, 642, 2562, 10242}) {
+    const std::vector<Eigen::Vector3d> points = icosphere(vertices);
+    // Of the largest hull a few pairs do: most of the time would go into making it ready.
+    std::vector<Scene> hulls(spheres.begin(), spheres.begin() + (vertices > 10000 ? std::min(pairs, 20) : pairs));
     for (Scene& scene : hulls)
       for (Body& body : scene.bodies) {
         const double radius = std::get<Sphere>(body.shape.geometry).radius;
         PointSet set;
-        // A Fibonacci lattice: evenly spread points on the sphere.
-        for (int i = 0; i < vertices; ++i) {
-          const double y = 1 - (2 * i + 1.0) / vertices, r = std::sqrt(1 - y * y), t = i * std::numbers::pi * (3 - std::sqrt(5.0));
-          set.points.push_back(radius * Eigen::Vector3d(r * std::cos(t), y, r * std::sin(t)));
-        }
+        for (const Eigen::Vector3d& p : points) set.points.push_back(radius * p);
         body.shape = {set, 0};
       }
     rows.push_back({"the same as hulls of " + std::to_string(vertices) + " vertices", hulls, Query::penetration});

@@ -31,6 +31,7 @@ class App {
   bool lecture = false;       ///< big sentence, no side panels
   bool show_lab = false;      ///< charts and atlas in place of the scene
   enum class LabTab { chart, atlas } lab_tab = LabTab::chart;
+  enum class ChartView { error, gap, iterations, price, motion } chart_view = ChartView::error;
   Measurements measured;
   std::string measure_requested;  ///< "chart" or "atlas": the host measures, opens the result and clears this
   bool measuring = false;         ///< the host is at it

@@ -12,10 +12,12 @@
 namespace gjkdbg {
 namespace {
 
-/// Reads the objects of the list that stands at `key`.
+/// Reads the objects of the list that stands at `key`, if there is one.
 template <class Read>
-void each(ObjectReader& parent, std::string_view key, const Read& read) {
-  const Json& list = parent.required(key);
+void each_if_there(ObjectReader& parent, std::string_view key, const Read& read) {
+  const Json* there = parent.optional(key);
+  if (!there) return;
+  const Json& list = *there;
   const Place place = parent.at(key);
   if (!list.is_array()) reject(place, "wrong-type", "must be a list");
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -23,6 +25,11 @@ void each(ObjectReader& parent, std::string_view key, const Read& read) {
     ObjectReader object(list[i], here);
     read(object);
   }
+}
+template <class Read>
+void each(ObjectReader& parent, std::string_view key, const Read& read) {
+  (void)parent.required(key);
+  each_if_there(parent, key, read);
 }
 
 SceneFile scene_at(const Json& json, const Place& place) {
@@ -43,7 +50,29 @@ int index_of(std::vector<std::string>& names, const std::string& name) {
 
 double number_at(ObjectReader& object, std::string_view key) { return read_number(object.required(key), object.at(key)); }
 int count_at(ObjectReader& object, std::string_view key) { return read_integer(object.required(key), object.at(key), 0, 1000000); }
+std::optional<double> number_if_there(ObjectReader& object, std::string_view key) {
+  const Json* there = object.optional(key);
+  return there ? std::optional(read_number(*there, object.at(key))) : std::nullopt;
+}
+/// A time or another number that is shown on a logarithmic scale.
+double positive_at(ObjectReader& object, std::string_view key) {
+  const double x = number_at(object, key);
+  if (!(x > 0)) reject(object.at(key), "out-of-range", "must be positive");
+  return x;
+}
 std::string string_at(ObjectReader& object, std::string_view key) { return read_string(object.required(key), object.at(key)); }
+
+MeasuredRung read_rung(ObjectReader& object) {
+  MeasuredRung rung{string_at(object, "shapes"), string_at(object, "method"), number_at(object, "distance"), number_at(object, "iterations"), number_at(object, "deviation"), 0, 0, {}, {}, {}};
+  rung.nanoseconds = number_if_there(object, "nanoseconds").value_or(0), rung.published_nanoseconds = number_if_there(object, "published_nanoseconds");
+  if (object.optional("vertices")) rung.vertices = count_at(object, "vertices");
+  if (const Json* published = object.optional("published")) {
+    const Place here = object.at("published");
+    ObjectReader figures(*published, here);
+    rung.published = number_at(figures, "iterations"), rung.published_deviation = number_at(figures, "deviation");
+  }
+  return rung;
+}
 
 MeasuredChart read_chart(ObjectReader& top) {
   MeasuredChart chart;
@@ -52,9 +81,9 @@ MeasuredChart read_chart(ObjectReader& top) {
     each(object, "points", [&](ObjectReader& dot) {
       MeasuredDot d;
       d.method = index_of(chart.methods, string_at(dot, "method"));
-      d.tolerance = number_at(dot, "tolerance"), d.nanoseconds = number_at(dot, "nanoseconds"), d.worst_error = number_at(dot, "worst_error");
+      d.tolerance = number_at(dot, "tolerance"), d.nanoseconds = positive_at(dot, "nanoseconds"), d.worst_error = number_at(dot, "worst_error");
+      d.median_gap = number_if_there(dot, "median_gap").value_or(0);
       d.wrong = count_at(dot, "wrong"), d.worst_pair = count_at(dot, "worst_pair"), d.front = read_bool(dot.required("front"), dot.at("front"));
-      if (!(d.nanoseconds > 0)) reject(dot.at("nanoseconds"), "out-of-range", "must be positive");
       family.dots.push_back(d);
     });
     const Place scenes = object.at("scenes");
@@ -62,6 +91,9 @@ MeasuredChart read_chart(ObjectReader& top) {
       for (const auto& [key, scene] : list->items()) family.scenes[std::atoi(key.c_str())] = scene_at(scene, Place(scenes, key));
     chart.families.push_back(std::move(family));
   });
+  each_if_there(top, "ladder", [&](ObjectReader& object) { chart.ladder.push_back(read_rung(object)); });
+  each_if_there(top, "price", [&](ObjectReader& o) { chart.price.push_back({string_at(o, "what"), positive_at(o, "nanoseconds"), number_at(o, "worst_error"), number_at(o, "supports")}); });
+  each_if_there(top, "motion", [&](ObjectReader& o) { chart.motion.push_back({string_at(o, "family"), string_at(o, "method"), number_at(o, "parameter"), positive_at(o, "nanoseconds"), number_at(o, "worst_error")}); });
   chart.settings.resize(chart.methods.size());
   const Place methods = top.at("methods");
   if (const Json* list = top.optional("methods"))

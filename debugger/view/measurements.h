@@ -16,6 +16,7 @@ namespace gjkdbg {
 struct MeasuredDot {
   int method = 0;         ///< index into `methods`
   double tolerance = 0, nanoseconds = 0, worst_error = 0;
+  double median_gap = 0;  ///< between the bounds; 0: another library's, which has none
   int wrong = 0, worst_pair = 0;
   bool front = false;
 };
@@ -27,10 +28,31 @@ struct MeasuredFamily {
   std::map<int, SceneFile> scenes;  ///< the worst ones, by number
 };
 
+/// A way of GJK at a distance: iterations, time, and what was published.
+struct MeasuredRung {
+  std::string shapes, method;
+  double distance = 0, iterations = 0, deviation = 0, nanoseconds = 0;
+  int vertices = 0;  ///< of a hull; 0: ellipsoids
+  std::optional<double> published, published_deviation, published_nanoseconds;
+};
+
+struct MeasuredPrice {
+  std::string what;
+  double nanoseconds = 0, worst_error = 0, supports = 0;
+};
+
+struct MeasuredMotion {
+  std::string family, method;
+  double parameter = 0, nanoseconds = 0, worst_error = 0;
+};
+
 struct MeasuredChart {
   std::vector<std::string> methods;
   std::vector<std::optional<Method>> settings;  ///< of the methods; unset: another library's
   std::vector<MeasuredFamily> families;
+  std::vector<MeasuredRung> ladder;
+  std::vector<MeasuredPrice> price;
+  std::vector<MeasuredMotion> motion;
 };
 
 /// How serious, in the order of the atlas's verdicts; the last two: crashed, not applicable.

@@ -1,181 +1,11 @@
-// Charts and the atlas in the window: pointing at a dot or a cell tells what it is, clicking opens its worst scene.
+// The measurements' panel: charts (panel_chart.cpp) and the atlas, in which pointing at a cell tells what it is and clicking opens its worst scene.
 #include <algorithm>
 #include <cmath>
 
-#include "debugger/view/app.h"
+#include "debugger/view/plot.h"
 
 namespace gjkdbg {
 namespace {
-
-constexpr std::pair<const char*, std::uint32_t> peers[] = {{"Bullet", 0x8c8f96}, {"FCL", 0x7d8a5c}, {"libccd GJK", 0x9a7358}, {"libccd MPR", 0x5f8296}, {"ODE", 0x8f6c92}, {"Box2D", 0xa39a4a}};
-
-/// A colour a method, whatever the scalar; other libraries in quieter ones.
-Colour colour_of(const std::string& method, const Palette& p) {
-  static constexpr std::pair<const char*, std::uint32_t> ours[] = {{"signed volumes", 0x3d8fe0}, {"Johnson", 0xe0663a}, {"Voronoi regions", 0x2fae83}, {"accelerated", 0xd07ab5},
-                                                                   {"Polyak", 0xdca11d}, {"Newton", 0xb8446e},        {"MPR", 0x62b8e8},     {"SAT", 0xa8a032},     {"closed form", 0xb07cc6}, {"projections", 0xd64550}};
-  for (const auto& [name, value] : ours)
-    if (method.starts_with(name)) return rgb(value);
-  for (const auto& [name, value] : peers)
-    if (method.starts_with(name)) return rgb(value);
-  return p.text_faint;
-}
-bool single(const std::string& method) { return method.ends_with(", float"); }
-bool foreign(const std::string& method) {
-  return std::any_of(std::begin(peers), std::end(peers), [&](const auto& peer) { return method.starts_with(peer.first); });
-}
-
-/// Of ours a disc, in float a ring; of others a square.
-void draw_mark(const Theme& theme, const std::string& method, ImVec2 at, Colour colour) {
-  ImDrawList* draw = ImGui::GetWindowDrawList();
-  const float r = theme.px(3.4f);
-  if (foreign(method)) draw->AddRectFilled({at.x - r, at.y - r}, {at.x + r, at.y + r}, packed(colour));
-  else if (single(method)) draw->AddCircle(at, r, packed(colour), 12, theme.px(1.3f));
-  else draw->AddCircleFilled(at, r, packed(colour), 12);
-}
-
-std::string formatted(double x, const char* format = "%.2g") {
-  char text[32];
-  std::snprintf(text, sizeof text, format, x);
-  return text;
-}
-
-/// Opens a scene at the first step that `check` finds wrong, else at the end.
-void open_scene(App& app, SceneFile scene, const std::string& title) {
-  try {
-    app.session.open(std::move(scene), title);
-    app.session.go_to(app.session.findings().empty() ? app.session.count() - 1 : app.session.findings().front().step);
-    app.message.clear(), app.settings.selected.reset();
-    app.show_lab = false;
-  } catch (const Error& e) {
-    app.message = e.line();
-  }
-}
-
-void small_text(const Theme& theme, ImVec2 at, Colour colour, const std::string& text) {
-  ImGui::GetWindowDrawList()->AddText(theme.small, theme.small->FontSize, at, packed(colour), text.c_str());
-}
-float small_width(const Theme& theme, const std::string& text) { return theme.small->CalcTextSizeA(theme.small->FontSize, FLT_MAX, 0, text.c_str()).x; }
-
-// --- Speed against accuracy -------------------------------------------------------------------------------------------
-
-constexpr double nothing = 1e-17;  ///< where an error of zero stands
-
-/// One family: time up, error to the right, both logarithmic.
-class FamilyPlot {
- public:
-  FamilyPlot(const Theme& theme, const MeasuredChart& chart, const MeasuredFamily& family, ImVec2 at, ImVec2 size, int highlighted)
-      : theme_(theme), chart_(chart), family_(family), at_(at), size_(size), highlighted_(highlighted) {
-    low_ = 1e300, high_ = 0;
-    for (const MeasuredDot& d : family.dots) low_ = std::min(low_, d.nanoseconds), high_ = std::max(high_, d.nanoseconds);
-    low_ = std::floor(std::log10(low_)), high_ = std::max(low_ + 1, std::ceil(std::log10(std::max(high_, 1.0))));
-    from_ = {at.x + theme_.px(46), at.y + theme_.px(34)}, to_ = {at.x + size.x - theme_.px(12), at.y + size.y - theme_.px(24)};
-  }
-
-  /// The dot pointed at.
-  const MeasuredDot* draw() {
-    ImDrawList* list = ImGui::GetWindowDrawList();
-    const Palette& p = theme_.palette;
-    list->AddRectFilled(at_, {at_.x + size_.x, at_.y + size_.y}, packed(p.view), theme_.px(6));
-    small_text(theme_, {at_.x + theme_.px(10), at_.y + theme_.px(6)}, p.text, family_.title);
-    const std::string axes = "time a query, over worst error";
-    const float room = size_.x - small_width(theme_, family_.title) - theme_.px(40);
-    if (small_width(theme_, axes) < room) small_text(theme_, {to_.x - small_width(theme_, axes), at_.y + theme_.px(6)}, p.text_faint, axes);
-    if (family_.dots.empty()) return nullptr;
-    for (const double e : {std::log10(nothing), -12.0, -8.0, -4.0, 0.0}) {
-      const float x = x_of(std::pow(10, e));
-      list->AddLine({x, from_.y}, {x, to_.y}, packed(p.field), 1);
-      const std::string label = e == 0 ? "1" : e < -16 ? "none" : "1e" + std::to_string(static_cast<int>(e));
-      small_text(theme_, {x - small_width(theme_, label) / 2, to_.y + theme_.px(4)}, p.text_faint, label);
-    }
-    for (double t = low_; t <= high_; ++t) {
-      const float y = y_of(std::pow(10, t));
-      list->AddLine({from_.x, y}, {to_.x, y}, packed(p.field), 1);
-      const std::string label = t < 3 ? formatted(std::pow(10, t), "%.0f ns") : t < 6 ? formatted(std::pow(10, t - 3), "%.0f \xC2\xB5s") : formatted(std::pow(10, t - 6), "%.0f ms");
-      small_text(theme_, {from_.x - small_width(theme_, label) - theme_.px(4), y - theme_.px(7)}, p.text_faint, label);
-    }
-    for (std::size_t i = 0; i + 1 < family_.dots.size(); ++i)
-      if (const MeasuredDot &a = family_.dots[i], &b = family_.dots[i + 1]; a.method == b.method) list->AddLine(place(a), place(b), packed(faded(a.method)), theme_.px(single(name(a)) ? 0.8f : 1.4f));
-    const MeasuredDot* pointed = nullptr;
-    float nearest = theme_.px(9);
-    for (const MeasuredDot& d : family_.dots) {
-      const ImVec2 x = place(d);
-      draw_mark(theme_, name(d), x, faded(d.method));
-      if (d.front && (highlighted_ < 0 || highlighted_ == d.method)) list->AddCircle(x, theme_.px(6), packed(p.text), 18, theme_.px(1));
-      const ImVec2 mouse = ImGui::GetIO().MousePos;
-      if (const float away = std::hypot(mouse.x - x.x, mouse.y - x.y); ImGui::IsWindowHovered() && away < nearest && (highlighted_ < 0 || highlighted_ == d.method)) nearest = away, pointed = &d;
-    }
-    if (pointed) list->AddCircle(place(*pointed), theme_.px(8), packed(p.accent), 20, theme_.px(2));
-    return pointed;
-  }
-
- private:
-  const std::string& name(const MeasuredDot& d) const { return chart_.methods[static_cast<std::size_t>(d.method)]; }
-  Colour faded(int method) const {
-    Colour c = colour_of(chart_.methods[static_cast<std::size_t>(method)], theme_.palette);
-    if (highlighted_ >= 0 && highlighted_ != method) c.a = 40;
-    return c;
-  }
-  float x_of(double error) const { return from_.x + static_cast<float>((std::log10(std::clamp(error, nothing, 1.0)) + 17.5) / 17.5) * (to_.x - from_.x); }
-  float y_of(double time) const { return to_.y - static_cast<float>((std::log10(time) - low_) / (high_ - low_)) * (to_.y - from_.y); }
-  ImVec2 place(const MeasuredDot& d) const { return {x_of(d.worst_error), y_of(d.nanoseconds)}; }
-
-  const Theme& theme_;
-  const MeasuredChart& chart_;
-  const MeasuredFamily& family_;
-  ImVec2 at_, size_, from_, to_;
-  int highlighted_;
-  double low_ = 0, high_ = 1;
-};
-
-void tell_dot(App& app, const MeasuredChart& chart, const MeasuredFamily& family, const MeasuredDot& d) {
-  const auto method = static_cast<std::size_t>(d.method);
-  const auto scene = family.scenes.find(d.worst_pair);
-  ImGui::BeginTooltip();
-  ImGui::TextColored(vec(colour_of(chart.methods[method], app.theme.palette)), "%s, tolerance %g", chart.methods[method].c_str(), d.tolerance);
-  ImGui::Text("%.0f ns a query, worst error %.2g%s", d.nanoseconds, d.worst_error, d.front ? "; nothing is both faster and more accurate" : "");
-  if (d.wrong > 0) ImGui::TextColored(vec(app.theme.palette.newest), "%d of %d pairs wrong", d.wrong, family.pairs);
-  if (scene != family.scenes.end()) ImGui::TextColored(vec(app.theme.palette.text_faint), chart.settings[method] ? "click: its worst pair" : "click: its worst pair, solved by our default");
-  ImGui::EndTooltip();
-  if (scene == family.scenes.end() || !ImGui::IsMouseClicked(ImGuiMouseButton_Left)) return;
-  SceneFile file = scene->second;
-  if (chart.settings[method]) file.method = *chart.settings[method], file.method.tolerance = d.tolerance;
-  open_scene(app, std::move(file), family.name + "-" + std::to_string(d.worst_pair));
-}
-
-void chart_area(App& app, ImVec2 at, ImVec2 size) {
-  const MeasuredChart& chart = *app.measured.chart;
-  const Theme& theme = app.theme;
-  // The legend: pointing at a method leaves only its dots.
-  int highlighted = -1;
-  ImVec2 pen = at;
-  for (std::size_t m = 0; m < chart.methods.size(); ++m) {
-    const float width = small_width(theme, chart.methods[m]) + theme.px(26);
-    if (pen.x + width > at.x + size.x) pen = {at.x, pen.y + theme.px(20)};
-    const ImVec2 centre{pen.x + theme.px(8), pen.y + theme.px(9)};
-    const Colour colour = colour_of(chart.methods[m], theme.palette);
-    draw_mark(theme, chart.methods[m], centre, colour);
-    const bool hovered = ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(pen, {pen.x + width, pen.y + theme.px(18)});
-    if (hovered) highlighted = static_cast<int>(m);
-    small_text(theme, {pen.x + theme.px(16), pen.y + theme.px(2)}, hovered ? theme.palette.text : theme.palette.text_soft, chart.methods[m]);
-    pen.x += width;
-  }
-  pen.y += theme.px(26);
-  const int count = static_cast<int>(chart.families.size());
-  if (count == 0) return;
-  const int columns = std::min(count, size.x > theme.px(1000) ? 3 : size.x > theme.px(560) ? 2 : 1), rows = (count + columns - 1) / columns;
-  const float gap = theme.px(8), width = (size.x - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns);
-  const float height = std::max(theme.px(150), (at.y + size.y - pen.y - gap * static_cast<float>(rows - 1)) / static_cast<float>(rows));
-  const MeasuredDot* pointed = nullptr;
-  const MeasuredFamily* where = nullptr;
-  for (int i = 0; i < count; ++i) {
-    const MeasuredFamily& family = chart.families[static_cast<std::size_t>(i)];
-    const ImVec2 corner{at.x + static_cast<float>(i % columns) * (width + gap), pen.y + static_cast<float>(i / columns) * (height + gap)};
-    if (const MeasuredDot* d = FamilyPlot(theme, chart, family, corner, {width, height}, highlighted).draw()) pointed = d, where = &family;
-  }
-  ImGui::SetCursorScreenPos({at.x, pen.y + static_cast<float>(rows) * (height + gap)});
-  ImGui::Dummy({1, 1});
-  if (pointed) tell_dot(app, chart, *where, *pointed);
-}
 
 // --- Stability ----------------------------------------------------------------------------------------------------------
 
@@ -197,7 +27,7 @@ void tell_cell(App& app, const MeasuredAtlas& atlas, const MeasuredAtlas::Family
   if (cell.scene && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
     SceneFile scene = *cell.scene;
     scene.scene.description = atlas.methods[m] + ", " + atlas_verdicts[static_cast<std::size_t>(cell.verdict)] + ". " + cell.why;
-    open_scene(app, std::move(scene), family.name + ", " + atlas.methods[m]);
+    open_measured(app, std::move(scene), family.name + ", " + atlas.methods[m]);
   }
 }
 
@@ -251,6 +81,17 @@ void atlas_area(App& app, ImVec2 at, ImVec2 size) {
 
 }  // namespace
 
+void open_measured(App& app, SceneFile scene, const std::string& title) {
+  try {
+    app.session.open(std::move(scene), title);
+    app.session.go_to(app.session.findings().empty() ? app.session.count() - 1 : app.session.findings().front().step);
+    app.message.clear(), app.settings.selected.reset();
+    app.show_lab = false;
+  } catch (const Error& e) {
+    app.message = e.line();
+  }
+}
+
 void lab_panel(App& app, const Area& area) {
   const Theme& theme = app.theme;
   if (begin_area("lab", area, true)) {
@@ -265,8 +106,15 @@ void lab_panel(App& app, const Area& area) {
     const float right = ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize("Back to the scene").x - theme.px(18);
     if (right > ImGui::GetCursorPosX()) ImGui::SetCursorPosX(right);
     if (ImGui::Button("Back to the scene")) app.show_lab = false;
+    if (chart && there) {
+      for (const auto& [name, value] : {std::pair("error", App::ChartView::error), {"certified gap", App::ChartView::gap}, {"iterations", App::ChartView::iterations}, {"price of modelling", App::ChartView::price}, {"motion", App::ChartView::motion}}) {
+        if (tab_button(theme, name, app.chart_view == value)) app.chart_view = value;
+        ImGui::SameLine();
+      }
+      ImGui::NewLine();
+    }
     ImGui::Dummy({0, theme.px(2)});
-    wrapped(chart ? "Time a query against the worst error of a family of pairs, a dot a tolerance; ringed: nothing is both faster and more accurate. Left and low is good."
+    wrapped(chart ? told_of(app.chart_view)
                   : "The worst verdict of every family of hard pairs, a row a method. Point at a family for what it is, at a cell for the reason.",
             theme.palette.text_faint);
     const ImVec2 at = ImGui::GetCursorScreenPos();
