@@ -45,4 +45,7 @@ struct Result {
   int support_calls = 0;
 };
 
+/// Whether there is neither a yes nor a no: a limit came first, and what is known leaves both open. `intersecting` is false then, and means nothing.
+inline bool unanswered(const Result& r) { return r.status == "aborted" || (r.status == "iteration_limit" && !r.intersecting && !(r.lower_bound && *r.lower_bound > 0)); }
+
 }  // namespace gjkdbg

@@ -138,9 +138,20 @@ void CheckContext::suspect(const char* code, const std::string& message) {
   if (!suspicion_) suspicion_ = Finding{step, Finding::Severity::error, code, message};
 }
 
+/// Of one step: what says most exactly what went wrong before what only shows it.
+void CheckContext::put_causes_first() {
+  static constexpr std::pair<std::string_view, std::string_view> pairs[] = {{"unjustified-separation", "stopped-early"}, {"visible-face-kept", "wrong-horizon"}, {"open-polytope", "wrong-horizon"}};
+  for (const auto& [cause, shown] : pairs) {
+    const auto of = [&](std::string_view code) { return std::find_if(findings_.begin(), findings_.end(), [&](const Finding& f) { return f.code == code; }); };
+    const auto first = of(shown), second = of(cause);
+    if (first != findings_.end() && second != findings_.end() && first < second && first->step == second->step) std::rotate(first, second, second + 1);
+  }
+}
+
 std::vector<Finding> CheckContext::take() {
   const auto is_error = [](const Finding& f) { return f.severity == Finding::Severity::error; };
   std::stable_sort(findings_.begin(), findings_.end(), [&](const Finding& x, const Finding& y) { return x.step != y.step ? x.step < y.step : is_error(x) && !is_error(y); });
+  put_causes_first();
   auto root = std::find_if(findings_.begin(), findings_.end(), is_error);
   if (root == findings_.end()) return std::move(findings_);
   static const std::set<std::string_view> consequences{"wrong-witness", "wrong-normal",  "wrong-distance",  "wrong-depth", "wrong-answer", "stopped-early", "origin-not-enclosed", "unjustified-separation",
@@ -234,8 +245,8 @@ struct Walk {
   void operator()(const recorded::ImpulseApplied&) {}
   /// What `run` noted when a solver failed, or named what it had not been given.
   void operator()(const recorded::Warning& e) {
-    for (const char* code : {"timeout", "crash", "bad-message", "support-limit", "no-result", "unknown-vertex", "wrong-face"})
-      if (e.code == code) c.find(code, e.message);
+    for (const char* code : {"timeout", "crash", "bad-message", "support-limit", "no-result", "unknown-vertex", "wrong-face", "open-polytope"})
+      if (e.code == code) c.find(code, e.message, e.code == "timeout" && c.recording.result.status != "aborted" ? Finding::Severity::warning : Finding::Severity::error);  // after the result it merely costs
     for (const char* code : {"unknown-field", "direction-not-asked"})
       if (e.code == code) c.find(code, e.message, Finding::Severity::warning);
   }

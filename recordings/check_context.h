@@ -71,6 +71,8 @@ class CheckContext {
   bool check_direction(const AnyVector& d);
 
  private:
+  void put_causes_first();
+
   std::optional<WorldSupport> a_, b_;
   std::vector<std::pair<WorldSupport, WorldSupport>> nearest_;  ///< of meshes: the parts as near as the bodies
   double radius_ = 0;       ///< of both bodies
@@ -130,6 +132,23 @@ class TraceCheck {
   std::optional<recorded::ClosedFormBegan> segments_;
 };
 
+/// Directions that come back in the same order, over and over. Fewer times than four may be chance: where a solver reports nothing, GJK's last directions and
+/// EPA's first ones stand side by side, and they may well be the same.
+class Repetition {
+ public:
+  static constexpr std::size_t times = 4;
+  /// How many directions make up what has now been there `times` times running, and the step at which it was first; unset where nothing has.
+  struct Found {
+    std::size_t period, first_step;
+  };
+  std::optional<Found> add(const AnyVector& direction, std::size_t step);
+  void forget() { directions_.clear(), steps_.clear(); }
+
+ private:
+  std::vector<std::string> directions_;  ///< as keys
+  std::vector<std::size_t> steps_;
+};
+
 /// GJK's part of a run: directions, simplices, progress, and the claim it ends with.
 class GjkCheck {
  public:
@@ -161,7 +180,7 @@ class GjkCheck {
   std::map<std::string, std::size_t> regions_;
   std::string last_region_;
   std::optional<std::size_t> repeated_from_, repeated_at_;
-  std::vector<std::string> directions_;  ///< of the queries, as keys
+  Repetition directions_;
 };
 
 /// EPA's part.
@@ -207,6 +226,7 @@ class EpaCheck {
     std::size_t step;
     int vertex, face;
   };
+  Repetition directions_;          ///< since the polytope last grew
   std::optional<NoGain> no_gain_;  ///< the last time the polytope grew by a vertex no farther out than the face chosen
 };
 

@@ -110,9 +110,12 @@ void EpaCheck::check_plane(int number, const AnyVector& normal, double distance)
   const AnyVector n = normal.stableNormalized();
   for (const int v : faces_[number].vertices) {
     const AnyVector* w = c_.vertex(v);
-    if (!w || std::abs(n.dot(*w) - distance) <= std::max(c_.tolerance, 1e-7 * c_.size)) continue;
+    const double rounding = std::max(c_.tolerance, 1e-7 * c_.size), length = normal.norm();
+    if (!w || std::abs(n.dot(*w) - distance) <= rounding) continue;
+    const bool by_its_length = std::abs(length - 1) > 1e-4 && std::abs(normal.dot(*w) - distance) <= rounding * length;
     c_.find("wrong-face", "The plane of " + name(number) + " is given by the normal " + text_of(normal) + " and the distance " + text_of(distance) + ", but its vertex " + std::to_string(v) + " lies at " + text_of(n.dot(*w)) +
-                              " along it. Expected are the normal " + text_of(faces_[number].normal) + " and the distance " + text_of(faces_[number].distance) + ".");
+                              " along it. Expected are the normal " + text_of(faces_[number].normal) + " and the distance " + text_of(faces_[number].distance) + "." +
+                              (by_its_length ? " The distance is measured with a normal of length " + text_of(length) + ": divide the normal by its length first, or faces of larger area look farther away." : ""));
     return;
   }
 }
@@ -146,7 +149,7 @@ void EpaCheck::check_horizon(const recorded::PolytopeGrown& e) {
 }
 
 void EpaCheck::operator()(const recorded::PolytopeSeeded& e) {
-  faces_.clear(), chosen_.reset(), no_gain_.reset();
+  faces_.clear(), chosen_.reset(), no_gain_.reset(), directions_.forget();
   for (const int v : e.vertices) c_.vertex(v);
   for (const auto& f : e.faces) add(f);
   orient(e.faces);
@@ -156,6 +159,7 @@ void EpaCheck::operator()(const recorded::PolytopeSeeded& e) {
 }
 
 void EpaCheck::operator()(const recorded::PolytopeGrown& e) {
+  directions_.forget();
   if (!c_.vertex(e.vertex)) return;
   check_horizon(e);
   check_gain(e.vertex);
@@ -194,6 +198,10 @@ void EpaCheck::check_removed(const recorded::PolytopeGrown& e, const std::map<in
 /// Every edge joins exactly two faces (2D: every vertex two edges; 1D: two ends).
 bool EpaCheck::check_closed() {
   std::map<std::array<int, 2>, int> uses;
+  if (c_.dimension == 1 && faces_.size() != 2) {
+    c_.find("open-polytope", "In 1D a polytope is an interval: it has " + std::to_string(faces_.size()) + (faces_.size() == 1 ? " end" : " ends") + " instead of 2.");
+    return false;
+  }
   for (const auto& [number, face] : faces_) {
     const std::size_t n = face.vertices.size();
     for (std::size_t i = 0; i < n; ++i) {
@@ -261,6 +269,9 @@ void EpaCheck::tell_no_gain() {
 void EpaCheck::operator()(const recorded::SupportQueried& e) {
   const AnyVector n = std::exchange(chosen_normal_, AnyVector());
   tell_no_gain();
+  if (const auto found = e.phase == Phase::epa ? directions_.add(e.direction, c_.step) : std::nullopt)
+    c_.find("cycle", "The direction " + text_of(e.direction) + (found->period == 1 ? " is" : ", and the " + std::to_string(found->period - 1) + " before it, are") + " asked along for the fourth time running, as from step " +
+                         std::to_string(found->first_step) + " on, and the polytope has not grown: the same supports come back, and EPA will never end. Stop when normal . w is no more than the face's distance and a tolerance, else remove the faces that w sees.");
   if (e.phase != Phase::epa || n.size() == 0 || n.isZero(0) || !n.allFinite()) return;
   const AnyVector d = e.direction.stableNormalized(), across = n.stableNormalized();
   if (d.dot(across) < -0.999)
@@ -277,12 +288,12 @@ void EpaCheck::operator()(const recorded::FaceChosen& e) {
   if (found == faces_.end() || !found->second.usable) return;
   const Face& face = found->second;
   const bool outwards = check_normal(e.face, e.normal);
-  for (const auto& [number, other] : faces_) {
-    if (!other.usable || other.distance >= face.distance - std::max(1e-7 * c_.size, c_.tolerance)) continue;
-    c_.find("not-closest-face", "The face chosen, " + name(e.face) + ", is " + text_of(face.distance) + " from the origin, but " + name(number) + " is nearer, at " + text_of(other.distance) +
+  int nearest = e.face;
+  for (const auto& [number, other] : faces_)
+    if (other.usable && other.distance < faces_.at(nearest).distance) nearest = number;
+  if (faces_.at(nearest).distance < face.distance - std::max(1e-7 * c_.size, c_.tolerance))
+    c_.find("not-closest-face", "The face chosen, " + name(e.face) + ", is " + text_of(face.distance) + " from the origin, but " + name(nearest) + " is nearer, at " + text_of(faces_.at(nearest).distance) +
                                     ". EPA's bound holds for the nearest face only. The usual cause is comparing distances of normals that were not normalised, or a stale queue entry.");
-    break;
-  }
   if (outwards) check_plane(e.face, e.normal, e.distance);
 }
 

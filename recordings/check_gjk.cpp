@@ -20,6 +20,17 @@ std::string key_of(const AnyVector& v) {
 
 }  // namespace
 
+std::optional<Repetition::Found> Repetition::add(const AnyVector& direction, std::size_t step) {
+  constexpr std::size_t longest = 32;
+  directions_.push_back(key_of(direction)), steps_.push_back(step);
+  const std::size_t n = directions_.size();
+  for (std::size_t period = 1; period <= longest && period * times <= n; ++period) {
+    const auto p = static_cast<std::ptrdiff_t>(period), all = static_cast<std::ptrdiff_t>(period * times);
+    if (std::equal(directions_.end() - all + p, directions_.end(), directions_.end() - all)) return Found{period, steps_[n - period * times]};
+  }
+  return std::nullopt;
+}
+
 std::vector<AnyVector> GjkCheck::points(const std::vector<int>& numbers) {
   std::vector<AnyVector> out;
   for (const int n : numbers)
@@ -80,20 +91,10 @@ void GjkCheck::check_progress(const recorded::SupportQueried& e) {
                          " again, and the search goes on as it did then: it will never end. Stop when a support is no farther along d than the simplex.");
 }
 
-/// The same directions in the same order, four times over. Fewer may be chance: where a solver reports nothing, GJK's last
-/// directions and EPA's first ones stand side by side, and they may well be the same.
 void GjkCheck::check_repetition(const AnyVector& direction) {
-  constexpr std::size_t longest = 32, times = 4;
-  directions_.push_back(key_of(direction));
-  const std::size_t n = directions_.size();
-  for (std::size_t period = 1; period <= longest && period * times <= n; ++period) {
-    const auto last = directions_.end();
-    const auto p = static_cast<std::ptrdiff_t>(period), all = static_cast<std::ptrdiff_t>(period * times);
-    if (!std::equal(last - all + p, last, last - all)) continue;
-    c_.find("cycle", "The direction " + text_of(direction) + (period == 1 ? " is" : ", and the " + std::to_string(period - 1) + " before it, are") + " searched for the fourth time running: the same supports come back, and the search "
-                     "will never end. Stop when a support is no farther along d than the simplex.");
-    return;
-  }
+  if (const auto found = directions_.add(direction, c_.step))
+    c_.find("cycle", "The direction " + text_of(direction) + (found->period == 1 ? " is" : ", and the " + std::to_string(found->period - 1) + " before it, are") + " searched for the fourth time running, as from step " +
+                         std::to_string(found->first_step) + " on: the same supports come back, and the search will never end. Stop when a support is no farther along d than the simplex.");
 }
 
 void GjkCheck::operator()(const recorded::SupportQueried& e) {

@@ -29,10 +29,10 @@ struct Judge {
 
   void answer(double best_plane) const {
     const double sd = *right.signed_distance;
-    if (std::abs(sd) <= limit) return;
+    if (std::abs(sd) <= limit || unanswered(r)) return;
     const bool right_answer = r.intersecting == (sd <= 0), asked = best_plane > -1e300;
     // Who asks no support at all may know by other means; who does, goes by what the supports prove.
-    if (!r.intersecting && (!right_answer || (asked && c.has_supports && !limited && best_plane - c.radius < -limit)))
+    if (!r.intersecting && asked && (!right_answer || (c.has_supports && !limited && best_plane - c.radius < -limit)))
       c.find("unjustified-separation", "The bodies are called apart, but no support proves it: the best plane leaves " + text_of(best_plane - c.radius) + " between them, and it takes a positive number. The usual cause is the wrong sign in the test whether the support passed the origin.");
     if (right_answer) return;
     c.find("wrong-answer", std::string("The bodies are called ") + (r.intersecting ? "overlapping" : "apart") + ", but they are " + (sd <= 0 ? "overlapping, " + text_of(-sd) + " deep" : "apart by " + text_of(sd)) + ".");
@@ -44,8 +44,10 @@ struct Judge {
     const double sd = only_distance ? std::max(0.0, *right.signed_distance) : *right.signed_distance;
     const double error = std::abs(*r.signed_distance - sd);
     if (error <= limit + (*right.upper_bound - *right.lower_bound)) return;
-    if (only_distance && *right.signed_distance <= 0 && *r.signed_distance <= 0) return;  // a depth was not asked for, but is no error
-    if (only_distance && sd == 0) return c.find("wrong-depth", "signed_distance is " + text_of(*r.signed_distance) + ", but the bodies overlap: a distance query's answer is 0.");
+    if (only_distance && sd == 0) {
+      if (std::abs(*r.signed_distance - *right.signed_distance) <= limit) return;  // the depth was not asked for, but is no error
+      return c.find("wrong-distance", "signed_distance is " + text_of(*r.signed_distance) + ", but the bodies overlap: a distance query's answer is 0.");
+    }
     c.find(sd > 0 ? "wrong-distance" : "wrong-depth", "signed_distance is " + text_of(*r.signed_distance) + ", expected " + text_of(sd) + " (certified between " + text_of(*right.lower_bound) + " and " + text_of(*right.upper_bound) + ")." + distance_hint(*r.signed_distance, sd));
   }
 
@@ -71,7 +73,7 @@ struct Judge {
 
   /// Any unit direction along which the bodies are as far apart, or as little deep, as they are at best is a right normal.
   void normal() const {
-    if (!r.normal) return;
+    if (!r.normal || unanswered(r)) return;  // which way is as little known as whether
     const AnyVector& n = *r.normal;
     const double sd = *right.signed_distance;
     if (c.recording.scene.scene.query == Query::distance && sd <= 0) return;
@@ -91,21 +93,27 @@ struct Judge {
       c.find("wrong-normal", "Along the normal " + text_of(n) + " the bodies are " + (along > 0 ? "apart by " + text_of(along) : text_of(-along) + " deep") + ", but along " + text_of(*right.normal) + " " + (sd > 0 ? "apart by " + text_of(sd) : "only " + text_of(-sd) + " deep") + ".");
   }
 
+  bool measured() const { return r.normal && r.signed_distance; }
+  /// b - a = signed_distance * normal.
+  bool belong_together(const AnyVector& a, const AnyVector& b) const { return (b - a - *r.signed_distance * *r.normal).norm() <= 10 * c.answer_tolerance(); }
+
   void witnesses() const {
     const Scene& scene = c.recording.scene.scene;
     const double slack = 10 * limit;
     const double out_a = r.witness_a ? outside(scene, 0, *r.witness_a) : 0, out_b = r.witness_b ? outside(scene, 1, *r.witness_b) : 0;
     if (out_a > slack || out_b > slack) {
-      const bool a = out_a > slack, swapped = r.witness_a && r.witness_b && outside(scene, 0, *r.witness_b) <= slack && outside(scene, 1, *r.witness_a) <= slack;
+      const bool a = out_a > slack, swapped = r.witness_a && r.witness_b && outside(scene, 0, *r.witness_b) <= slack && outside(scene, 1, *r.witness_a) <= slack && (!measured() || belong_together(*r.witness_b, *r.witness_a));
       c.find("wrong-witness", std::string("witness_") + (a ? "a " : "b ") + text_of(a ? *r.witness_a : *r.witness_b) + " lies " + text_of(a ? out_a : out_b) + " outside its body. " +
                                    (portal ? "The origin does not project into MPR's last portal: its depth bounds the right one from above, but no points of both bodies lie that far apart along its normal."
                                    : swapped ? "Each lies on the other body: they are swapped."
                                            : "The usual cause is weights that belong to other vertices, or to the wrong face."));
       return;
     }
-    if (!r.witness_a || !r.witness_b || !r.normal || !r.signed_distance || (scene.query == Query::distance && r.intersecting)) return;
-    const double off = (*r.witness_b - *r.witness_a - *r.signed_distance * *r.normal).norm();
-    if (off > 10 * c.answer_tolerance())
+    if (!r.witness_a || !r.witness_b || !measured() || (scene.query == Query::distance && r.intersecting)) return;
+    if (belong_together(*r.witness_a, *r.witness_b)) return;
+    if (belong_together(*r.witness_b, *r.witness_a))  // of bodies that overlap each may lie on either
+      c.find("wrong-witness", "witness_b - witness_a is " + text_of(AnyVector(*r.witness_b - *r.witness_a)) + ", but signed_distance * normal is " + text_of(AnyVector(*r.signed_distance * *r.normal)) + ", which is witness_a - witness_b: they are swapped.");
+    else
       c.find("wrong-witness", "witness_b - witness_a is " + text_of(AnyVector(*r.witness_b - *r.witness_a)) + ", but signed_distance * normal is " + text_of(AnyVector(*r.signed_distance * *r.normal)) + ": the points and the distance do not belong together. The usual cause is weights of another part than the nearest: of a simplex that was not reduced to it, or of a face whose plane is the nearest while the point lies on a neighbour in the same plane.");
   }
 

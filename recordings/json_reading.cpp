@@ -270,7 +270,7 @@ std::string nearest_name(std::string_view word, const std::vector<std::string_vi
   std::string best;
   std::size_t least = std::max<std::size_t>(2, word.size() / 2) + 1;
   for (const std::string_view candidate : candidates)
-    if (const std::size_t d = distance(word, candidate); d < least) least = d, best = candidate;
+    if (const std::size_t d = distance(word, candidate); d < least && (d < 2 || word.front() == candidate.front())) least = d, best = candidate;  // who errs twice hardly errs at the first letter
   return best;
 }
 

@@ -145,7 +145,7 @@ void append_result(std::string& out, const Result& r, Query query, std::string_v
     out += id;
   }
   append_key(out, "intersecting", id.empty());
-  out += r.status == "aborted" ? "null" : r.intersecting ? "true" : "false";
+  out += unanswered(r) ? "null" : r.intersecting ? "true" : "false";
   const auto number = [&](std::string_view name, const std::optional<double>& x) {
     append_key(out, name);
     append_number(out, x.value_or(NAN));

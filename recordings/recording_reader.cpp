@@ -151,7 +151,7 @@ Result read_result(const Json& json, const Place& place, int dimension) {
   Result r;
   const Json& intersecting = o.required("intersecting");
   r.status = read_string(o.required("status"), o.at("status"));
-  if (!(intersecting.is_null() && r.status == "aborted")) r.intersecting = read_bool(intersecting, o.at("intersecting"));
+  if (!(intersecting.is_null() && unanswered(r))) r.intersecting = read_bool(intersecting, o.at("intersecting"));
   r.signed_distance = read_optional_number(o, "signed_distance");
   r.normal = read_optional_vector(o, "normal", dimension);
   r.witness_a = read_optional_vector(o, "witness_a", dimension);

@@ -305,8 +305,18 @@ class Program(unittest.TestCase):
     def test_scenes_lists_the_gallery(self):
         result = run("scenes")
         self.assertEqual(result.returncode, 0)
-        names = [line.split()[0] for line in result.stdout.splitlines() if line.startswith("  ")]
-        self.assertEqual(len(names), len(list((ROOT / "recordings/gallery").glob("*.scene.json"))))
+        names = [line.split()[0] for line in result.stdout.splitlines()]
+        self.assertEqual(sorted(names), sorted(p.name.removesuffix(".scene.json") for p in (ROOT / "recordings/gallery").glob("*.scene.json")))
+
+    def test_a_limit_is_no_answer(self):
+        for scene, flags in (("box-box-deep", ()), ("boolean-hit-3d", ("--scalar", "float")), ("mpr-box-box", ()), ("two-unit-cubes", ("--name", "gjk-accelerated"))):
+            recording = self.path / "limit.recording.json"
+            self.assertIn(run("dump", scene, "--max-iterations", 1, *flags, "-o", recording).returncode, (0, 1))
+            result = json.loads(recording.read_text())["result"]
+            if result["status"] == "iteration_limit" and not (result.get("upper_bound") or 0) < 0:
+                self.assertIsNone(result["intersecting"], scene)
+            self.assertEqual(run("verify", recording).returncode, 0)
+            self.assertEqual(run("check", recording).stdout, "no findings: every step holds\n", scene)
 
     @unittest.skipUnless("render" in run("--help").stdout, "built without the view")
     def test_render(self):

@@ -13,11 +13,9 @@ namespace {
 int run_scenes() {
   const Gallery gallery = read_gallery(gallery_directory());
   for (const Lesson& lesson : gallery.lessons) {
-    std::cout << lesson.title << "\n";
     for (const std::string& name : lesson.scenes) {
       const Scene scene = read_scene(gallery.file(name)).scene;
-      std::cout << "  " << std::left << std::setw(38) << name << " " << scene.dimension << "D  " << std::setw(12)
-                << query_names[static_cast<std::size_t>(scene.query)] << scene.description << "\n";
+      std::cout << std::left << std::setw(38) << name << " " << scene.dimension << "D  " << std::setw(12) << query_names[static_cast<std::size_t>(scene.query)] << std::setw(28) << lesson.title << " " << scene.description << "\n";
     }
   }
   return exit_done;

@@ -217,7 +217,12 @@ void SolverRecorder::polytope(const Json& json) {
   for (std::size_t i = 0; i < json["faces"].size(); ++i) {
     const std::vector<int> vertices = face_vertices(json["faces"][i], Place(at, i));
     const std::set<int> key(vertices.begin(), vertices.end());
-    if (!wanted.insert(key).second && epa_) continue;
+    if (!wanted.insert(key).second && epa_) {
+      std::string list;
+      for (const int v : vertices) list += (list.empty() ? "[" : ", ") + std::to_string(v);
+      recording_.events.push_back(recorded::Warning{"open-polytope", "The polytope lists the face " + list + "] twice: its edges then belong to four faces instead of 2. The usual cause is a face that is added to the list before the one it replaces is taken out, or an edge of the horizon that is there twice."});
+      continue;
+    }
     if (!faces_.contains(key)) added.push_back(make_face(vertices));
   }
   grow(wanted, std::move(added));
@@ -316,9 +321,18 @@ void SolverRecorder::result(const Json& json) {
   r.status = "converged";
   if (epa_ || chosen_) {
     const AnyVector normal = r.normal ? *r.normal : chosen_ ? chosen_->normal : AnyVector(AnyVector::Zero(dimension_));
-    recording_.events.push_back(recorded::EpaEnded{epa_iteration_, EpaStatus::converged, chosen_ ? chosen_->face : -1, normal, r.signed_distance ? -*r.signed_distance : 0});
+    recording_.events.push_back(recorded::EpaEnded{epa_iteration_, EpaStatus::converged, chosen_ ? chosen_->face : -1, normal, r.signed_distance ? -*r.signed_distance : nearest_face()});
   }
   done_ = true;
+}
+
+/// How far the face is that EPA's answer is taken from, where it is not told.
+double SolverRecorder::nearest_face() const {
+  if (chosen_) return chosen_->distance;
+  double least = nan;
+  for (const auto& [key, face] : faces_)
+    if (!(face.distance >= least)) least = face.distance;
+  return std::isfinite(least) ? least : 0;
 }
 
 void SolverRecorder::abort(const std::string& code, const std::string& message) {

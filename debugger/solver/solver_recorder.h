@@ -37,6 +37,7 @@ class SolverRecorder {
   void note_unknown_fields(const std::string& type, const Json& json);
   void check_announced(const AnyVector& direction);
   void check_plane(const recorded::Face& face, const recorded::FaceChosen& given);
+  double nearest_face() const;
   void begin(const AnyVector& direction);
   void end_gjk(GjkStatus status);
   std::vector<int> vertex_list(const Json& json, const Place& place) const;

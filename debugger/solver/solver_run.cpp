@@ -79,8 +79,9 @@ void talk(SolverProcess& process, SolverRecorder& recorder, const SolverLimits& 
   process.close_input();
   const auto to_end = std::min(deadline, std::chrono::steady_clock::now() + std::chrono::milliseconds(500));
   nothing_follows(process, recorder, to_end);
-  // It has until then to end well. One that goes on is ended.
-  const auto how = process.wait(to_end);
+  // It has some time to end well. One that goes on is ended.
+  const auto how = process.wait(std::chrono::steady_clock::now() + std::chrono::seconds(2));
+  if (!how) recorder.warn("timeout", "The solver gave its result, and then did not end, though its input was closed. It was ended.");
   if (how && !how->empty()) recorder.warn("crash", "The solver gave its result, and then ended with " + *how + ". Its own error output says more.");
 }
 
