@@ -71,9 +71,17 @@ struct Judge {
       c.find("wrong-bounds", "The bounds " + text_of(lower) + " and " + text_of(upper) + " leave out the right distance, " + text_of(*right.signed_distance) + ".");
   }
 
+  /// Whether GJK came to its limit: which way the nearest point lies is then as little known as how far. (EPA and MPR have a direction for what they say.)
+  bool cut_short() const {
+    const auto& events = c.recording.events;
+    const auto ends = [](const Event& e) { return std::holds_alternative<recorded::GjkEnded>(e) || std::holds_alternative<recorded::EpaEnded>(e) || std::holds_alternative<recorded::MprEnded>(e); };
+    const auto last = std::find_if(events.rbegin(), events.rend(), ends);
+    return r.status == "iteration_limit" && (last == events.rend() || std::holds_alternative<recorded::GjkEnded>(*last));
+  }
+
   /// Any unit direction along which the bodies are as far apart, or as little deep, as they are at best is a right normal.
   void normal() const {
-    if (!r.normal || unanswered(r)) return;  // which way is as little known as whether
+    if (!r.normal || cut_short()) return;
     const AnyVector& n = *r.normal;
     const double sd = *right.signed_distance;
     if (c.recording.scene.scene.query == Query::distance && sd <= 0) return;

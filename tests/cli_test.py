@@ -309,7 +309,7 @@ class Program(unittest.TestCase):
         self.assertEqual(sorted(names), sorted(p.name.removesuffix(".scene.json") for p in (ROOT / "recordings/gallery").glob("*.scene.json")))
 
     def test_a_limit_is_no_answer(self):
-        for scene, flags in (("box-box-deep", ()), ("boolean-hit-3d", ("--scalar", "float")), ("mpr-box-box", ()), ("two-unit-cubes", ("--name", "gjk-accelerated"))):
+        for scene, flags in (("box-box-deep", ()), ("boolean-hit-3d", ("--scalar", "float")), ("mpr-box-box", ()), ("pair-hull-hull", ()), ("sphere-in-box", ()), ("stopping-jolt", ()), ("two-unit-cubes", ("--name", "gjk-accelerated"))):
             recording = self.path / "limit.recording.json"
             self.assertIn(run("dump", scene, "--max-iterations", 1, *flags, "-o", recording).returncode, (0, 1))
             result = json.loads(recording.read_text())["result"]
