@@ -77,6 +77,7 @@ class Caster {
           continue;
         }
         const Gap gap = gap_of(p, time);
+        if (!gap.known && gap.distance > target_) return {CastStatus::iteration_limit, time, {-1, -1, nullptr, nullptr}, {}};  // no step from here is safe
         if (gap.distance <= target_) {
           // A pair that only slides along another does not meet it.
           if (gap.closing <= sliding_ * speed(p) && (gap.distance > 0 || start_ > 0)) {
@@ -147,7 +148,8 @@ class Caster {
     Gap gap{*r.signed_distance, *r.normal, *r.witness_a, *r.witness_b};
     gap.bound = gap.closing = closing(p, gap.normal);
     if (settings_.name != MethodName::root_finding) gap.bound = bound_from_here(p, two, gap);
-    if (trace_) (*trace_)(world::CastAdvanced{iterations_, start_ + time, {p.first, p.second}, gap.distance, gap.normal, gap.bound});
+    gap.known = r.status != gjk_status_names[static_cast<std::size_t>(GjkStatus::iteration_limit)];
+    if (trace_ && (gap.known || gap.distance <= target_)) (*trace_)(world::CastAdvanced{iterations_, start_ + time, {p.first, p.second}, gap.distance, gap.normal, gap.bound});
     return gap;
   }
 

@@ -21,6 +21,7 @@ struct Gap {
   AnyVector normal, witness_a, witness_b;
   double closing = 0;  ///< how fast it closes at most along the normal, whichever way the bodies turn
   double bound = 0;    ///< how fast until they can meet; at most `closing`
+  bool known = true;   ///< false: GJK came to its limit, and the distance may be less
 };
 
 /// What a body was turned off by.

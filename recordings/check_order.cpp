@@ -81,7 +81,9 @@ void OrderCheck::operator()(const Event& event) {
   const MethodName method = c_.recording.settings.name;
   const bool unkept = step == before_ && step == "support_queried of gjk" && (method == MethodName::gjk_accelerated || (method == MethodName::gjk_boolean && earlier_ == "gjk_began"));  // with momentum; the first two
   const bool answered = casting_ && ends_query(before_) && (begins_query(step) || step == "state" || step == "contact_found" || step == "impulse_applied");  // a cast goes on with its own step
-  if (!unkept && (!may_follow(before_, step) || answered))
+  const auto* end = std::get_if<recorded::CastEnded>(&event);
+  const bool given_up = end && end->status == CastStatus::iteration_limit && before_ == "gjk_ended";  // a run came to its limit: no step from there is safe
+  if (!unkept && !given_up && (!may_follow(before_, step) || answered))
     c_.find("inconsistent", "\"" + step + "\" comes after " + (before_ == start ? before_ : "\"" + before_ + "\"") + ", where no step of ours leads to it. A step is missing here, or one too many.", Finding::Severity::warning);
   earlier_ = std::exchange(before_, step);
 }

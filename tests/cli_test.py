@@ -313,10 +313,23 @@ class Program(unittest.TestCase):
             recording = self.path / "limit.recording.json"
             self.assertIn(run("dump", scene, "--max-iterations", 1, *flags, "-o", recording).returncode, (0, 1))
             result = json.loads(recording.read_text())["result"]
-            if result["status"] == "iteration_limit" and not (result.get("upper_bound") or 0) < 0:
-                self.assertIsNone(result["intersecting"], scene)
+            if result["status"] == "iteration_limit":
+                low, high = result.get("lower_bound"), result.get("upper_bound")
+                self.assertEqual(result["intersecting"], False if low is not None and low > 0 else True if high is not None and high < 0 else None, scene)
             self.assertEqual(run("verify", recording).returncode, 0)
             self.assertEqual(run("check", recording).stdout, "no findings: every step holds\n", scene)
+
+    def test_a_cast_at_its_limit_is_never_late(self):
+        recording = self.path / "cast.recording.json"
+        for scene, name in (("cast-slow-approach", "conservative-advancement"), ("cast-slow-approach", "root-finding"), ("cast-rotating-rod", "conservative-advancement")):
+            run("dump", scene, "--name", "root-finding", "-o", recording)
+            meet = json.loads(recording.read_text())["result"]["touching_at"]
+            for limit in (1, 2, 3, 4, 6, 8, 16):
+                run("dump", scene, "--name", name, "--max-iterations", limit, "-o", recording)
+                result = json.loads(recording.read_text())["result"]
+                self.assertLessEqual(result["time"], meet, (scene, name, limit))
+                self.assertEqual(result["intersecting"], True if result["status"] == "hit" else None)
+                self.assertEqual(run("check", recording).stdout, "no findings: every step holds\n", (scene, name, limit))
 
     @unittest.skipUnless("render" in run("--help").stdout, "built without the view")
     def test_render(self):
