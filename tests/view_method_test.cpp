@@ -1,6 +1,8 @@
-// The method's settings in the window, chosen by the mouse: where GJK begins, and methods that fit the bodies.
+// The method's settings in the window, chosen by the mouse: where GJK begins, and methods that fit the bodies. And what the window says of a step,
+// in sentences and in the names of what is drawn.
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "debugger/view/explain.h"
 #include "tests/support/window_fixture.h"
@@ -89,6 +91,200 @@ TEST_F(MethodPanel, OffersOnlyMethodsThatFit) {
   EXPECT_EQ(session.recording().settings.name, MethodName::gjk);
   choose(606, 4);
   EXPECT_EQ(session.recording().settings.name, MethodName::closed_form);
+}
+
+class Words : public Window {
+ protected:
+  Explanation at(std::size_t step) {
+    session.go_to(step);
+    return explain(session.recording(), session.frame());
+  }
+  template <class Kind>
+  std::size_t first() const {
+    const auto& events = session.recording().events;
+    return static_cast<std::size_t>(std::find_if(events.begin(), events.end(), [](const Event& e) { return std::holds_alternative<Kind>(e); }) - events.begin());
+  }
+  std::size_t last() const { return session.count() - 1; }
+  /// Every label of the difference view at a step.
+  std::set<std::string> names(std::size_t step) {
+    session.go_to(step);
+    const Projection projection(app.difference_camera, {0, 0, 400, 400});
+    std::set<std::string> all;
+    for (const PictureLabel& label : difference_picture(session.meshes(), session.recording(), session.frame(), ViewSettings{}, dark_palette, projection).labels) all.insert(label.text);
+    return all;
+  }
+};
+
+TEST_F(Words, SayWhyASimplexIsKeptAndWhatItMeans) {
+  app.open_gallery("boolean-hit-2d");
+  const std::string hit = at(5).text;
+  EXPECT_NE(hit.find("The origin lies in the triangle ABC: the bodies overlap."), std::string::npos) << hit;
+  EXPECT_EQ(hit.find("next direction"), std::string::npos) << hit;
+  app.open_gallery("2d-squares-apart");
+  EXPECT_NE(at(4).text.find("the foot of the perpendicular from O lies within it"), std::string::npos);
+  EXPECT_EQ(at(2).text.find("perpendicular"), std::string::npos) << "of a single vertex there is none";
+  app.open_gallery("box-box-deep");
+  EXPECT_NE(at(first<recorded::GjkEnded>()).text.find("The bodies overlap."), std::string::npos);
+  SceneFile round = session.scene();
+  round.scene.bodies[0].shape.margin = 0.1;
+  ASSERT_EQ(session.edit(round), "");
+  EXPECT_NE(at(first<recorded::GjkEnded>()).text.find("The cores overlap."), std::string::npos);
+}
+
+TEST_F(Words, NameTheNearestPointAtTheEnd) {
+  app.open_gallery("2d-squares-apart");
+  EXPECT_TRUE(names(last()).contains("v"));
+  app.open_gallery("2d-corner-to-corner");
+  EXPECT_TRUE(names(last()).contains("v = A = w")) << "one dot, one label";
+  EXPECT_FALSE(names(last()).contains("w"));
+}
+
+TEST_F(Words, CallThePolytopesFacesEdgesInThePlane) {
+  const std::size_t face = first<recorded::FaceChosen>();
+  EXPECT_TRUE(names(face).contains("face " + std::to_string(std::get<recorded::FaceChosen>(session.recording().events[face]).face)));
+  EXPECT_TRUE(names(face).contains("#0"));
+  EXPECT_TRUE(names(last()).contains("depth"));
+  app.open_gallery("2d-deep");
+  const std::size_t edge = first<recorded::FaceChosen>();
+  EXPECT_TRUE(at(edge).text.starts_with("Edge ")) << at(edge).text;
+  EXPECT_TRUE(names(edge).contains("edge " + std::to_string(std::get<recorded::FaceChosen>(session.recording().events[edge]).face)));
+  for (std::size_t i = edge; i < session.count(); ++i) {
+    const PseudoCode code = pseudo_code(session.recording(), i);
+    std::string all = at(i).title + at(i).text + summary(session.recording(), i);
+    for (const std::string& line : code.lines) all += line;
+    EXPECT_EQ(all.find("face"), std::string::npos) << all;
+  }
+  app.open_gallery("box-box-deep");
+  SceneFile round = session.scene();
+  for (Body& body : round.scene.bodies) body.shape = {Ellipsoid{Eigen::Vector3d(1, 0.7, 0.6)}, 0};
+  ASSERT_EQ(session.edit(round), "");
+  ASSERT_GT(names(last()).size(), 0u);
+  ASSERT_GT(session.frame().vertices.size(), 20u);
+  for (const std::string& name : names(last())) EXPECT_FALSE(name.starts_with("#")) << "there is no room for so many numbers";
+}
+
+TEST_F(Words, PutAWarningWhereItWasGiven) {
+  Recording theirs = session.recording();
+  theirs.generator = "another solver";
+  const std::size_t chosen = first<recorded::FaceChosen>();
+  const int iteration = std::get<recorded::FaceChosen>(theirs.events[chosen]).iteration;
+  theirs.events.resize(chosen + 1);
+  theirs.events.emplace_back(recorded::EpaEnded{iteration, EpaStatus::aborted, -1, AnyVector(AnyVector::Zero(3)), 0});
+  theirs.events.emplace_back(recorded::Warning{"bad-message", "Not a message of the protocol."});
+  theirs.result = {};
+  theirs.result.status = "aborted";
+  session.open(theirs, "theirs");
+  session.go_to(last());
+  EXPECT_TRUE(place_text(session).ends_with("EPA iteration " + std::to_string(iteration))) << place_text(session);
+  EXPECT_EQ(summary(session.recording(), last() - 1), "aborted");
+  EXPECT_FALSE(names(last() - 1).contains("depth"));
+  host.frame(), host.frame();
+  // A phase back from the warning is out of EPA.
+  host.press(Key::left, false, true);
+  EXPECT_EQ(phase_of(session.recording().events[session.step()]), 0);
+}
+
+TEST_F(Words, AnswerForTheRunOfAnotherSolver) {
+  session.go_to(3);
+  host.frame(), host.frame();
+  const Image ours = host.image();
+  Recording theirs = session.recording();
+  theirs.generator = "another solver";
+  session.open(theirs, "box-box-deep");
+  EXPECT_TRUE(session.findings().empty());
+  session.go_to(3);
+  host.frame(), host.frame();
+  EXPECT_NE(host.image().rgb, ours.rgb) << "another chip, and that every step holds";
+  std::get<recorded::SupportQueried>(theirs.events[3]).direction *= -1;
+  session.open(theirs, "box-box-deep");
+  ASSERT_FALSE(session.findings().empty());
+  host.frame(), host.frame();
+}
+
+TEST_F(Words, AreFoundInSentencesToo) {
+  app.open_gallery("box-box-apart");
+  EXPECT_EQ(find_text(session, "dropped", 0, false), std::size_t{6});
+  EXPECT_EQ(find_text(session, "Dropped", 0, true), std::size_t{6});
+  EXPECT_EQ(find_text(session, "simplex", 0, false), std::size_t{2}) << "what the list shows comes first";
+  EXPECT_FALSE(find_text(session, "zeppelin", 0, false));
+  // The old text is selected when the dialog opens again: typing replaces it.
+  for (const char* text : {"grow", "dropped"}) {
+    host.press(Key::f, false, true);
+    host.frame();
+    host.type(text);
+    host.press(Key::enter);
+    host.press(Key::escape);
+    host.frame();
+  }
+  EXPECT_EQ(session.step(), 6u);
+  host.press(Key::f, false, true);
+  host.frame();
+  host.type("nonsense < 3");
+  host.press(Key::enter);
+  host.press(Key::escape);
+  host.frame();
+  host.press(Key::f3);
+  EXPECT_NE(app.message.find("nonsense"), std::string::npos) << app.message;
+}
+
+TEST_F(Words, SayInSteps) {
+  Method steps;
+  steps.max_iterations = 2;
+  ASSERT_EQ(session.compare_with(steps, "two steps"), "");
+  const std::string part = "they part at step " + std::to_string(session.parting()->event);
+  EXPECT_TRUE(parting_text(session).starts_with("the same so far; " + part)) << parting_text(session);
+  session.go_to(last());
+  EXPECT_TRUE(parting_text(session).starts_with(part)) << parting_text(session);
+  EXPECT_FALSE(answers_agree(session.recording().result, session.other().result));
+  Method other;
+  other.closest_point = ClosestPoint::johnson;
+  ASSERT_EQ(session.compare_with(other, "johnson"), "");
+  EXPECT_TRUE(answers_agree(session.recording().result, session.other().result));
+  host.frame();
+}
+
+TEST_F(Words, OfARefusedNumberAreThePanels) {
+  SceneFile next = session.scene();
+  next.method.tolerance = 7;
+  EXPECT_EQ(session.edit(next), "tolerance must be greater than 0 and less than 1");
+  // One click in a number's field, and typing begins.
+  host.click(180, 262);
+  host.frame();
+  host.type("2.5");
+  host.press(Key::enter);
+  EXPECT_EQ(session.scene().scene.bodies[0].pose.position[1], 2.5);
+}
+
+TEST_F(Words, APhaseOfAMotionIsWhereItMovesOn) {
+  app.open_gallery("cast-bounce");
+  std::size_t stops = 0, moves = 0;
+  for (const Event& e : session.recording().events)
+    moves += std::holds_alternative<recorded::CastAdvanced>(e) || std::holds_alternative<recorded::State>(e) || std::holds_alternative<recorded::ImpulseApplied>(e);
+  ASSERT_GT(moves, 3u);
+  while (session.step() < last()) session.step_phase(1), ++stops;
+  EXPECT_GE(stops, moves);
+  EXPECT_LT(stops, session.count() / 2);
+  session.step_phase(-1);
+  EXPECT_LT(session.step(), last());
+  EXPECT_GT(session.step(), 0u);
+  EXPECT_NE(at(last()).text, "");
+}
+
+TEST_F(Words, AndTheArrowsTheyNameAreInView) {
+  for (const char* scene : {"2d-squares-apart", "2d-deep", "box-box-apart", "box-box-deep"}) {
+    app.open_gallery(scene);
+    const Camera world = fit_world(session.meshes(), session.recording()), difference = fit_difference(session.meshes(), session.recording());
+    const ViewRectangle view{0, 0, 300, 300};
+    const Projection in_world(world, view), in_difference(difference, view);
+    for (const Event& event : session.recording().events) {
+      const auto* e = std::get_if<recorded::SupportQueried>(&event);
+      if (!e) continue;
+      const ViewPoint d = to_view(AnyVector(e->direction.normalized()));
+      const Projected o = in_difference(ViewPoint(d * direction_arrow * difference.radius)), a = in_world(ViewPoint(to_view(e->a) + d * support_arrow * world.radius)),
+                      b = in_world(ViewPoint(to_view(e->b) - d * support_arrow * world.radius));
+      for (const Projected& tip : {o, a, b}) EXPECT_TRUE(view.contains(tip.x, tip.y)) << scene << " " << tip.x << " " << tip.y;
+    }
+  }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The Minkowski difference: simplex, direction, support plane, regions, polytope, portal.
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "algo/motion.h"
 #include "debugger/render/painter.h"
@@ -96,10 +97,24 @@ class DifferencePainter : public Painter {
       const FrameVertex *p = vertex(e[0]), *q = vertex(e[1]);
       if (p && q && !flat()) picture_.lines.push_back({to_view(p->w), to_view(q->w), palette_.frontier, 3.2, Stroke::solid, true, true});
     }
-    if (!frame_.normal || !frame_.depth) return;
+    if (const auto chosen = frame_.chosen ? frame_.faces.find(*frame_.chosen) : frame_.faces.end(); chosen != frame_.faces.end()) name_face(chosen->second);
+    if (!frame_.normal || !frame_.depth || frame_.epa_status == EpaStatus::aborted) return;
     const ViewPoint tip = to_view(*frame_.normal) * std::max(0.0, *frame_.depth - meshes_.radius);
-    picture_.lines.push_back({ViewPoint::Zero(), tip, palette_.chosen, 3, Stroke::solid, true, true});
-    label(tip, "depth", palette_.chosen);
+    if (!(tip.norm() > 1e-6 * unit())) return;
+    picture_.lines.push_back({ViewPoint::Zero(), tip, palette_.text, 3, Stroke::solid, true, true});  // not the chosen face's colour, before which it lies
+    label(tip / 2, "depth", palette_.text);
+  }
+
+  /// "face 3", as the step's sentence calls it, in the face's middle.
+  void name_face(const FrameFace& f) {
+    ViewPoint middle = ViewPoint::Zero();
+    for (const int v : f.vertices) {
+      const FrameVertex* p = vertex(v);
+      if (!p) return;
+      middle += to_view(p->w) / static_cast<double>(f.vertices.size());
+    }
+    const std::string name = (meshes_.dimension == 2 ? "edge " : "face ") + std::to_string(f.face);
+    label(middle, name, palette_.chosen.mixed(palette_.text), -4.2 * static_cast<double>(name.size()), -12);  // lighter than the face, on which it stands if it can
   }
 
   /// MPR: the rays from the inner point to the portal's corners, and the one through the origin.
@@ -205,7 +220,7 @@ class DifferencePainter : public Painter {
       if (frame_.stage == Frame::Stage::gjk || frame_.stage == Frame::Stage::before || frame_.stage == Frame::Stage::done) return;
     }
     if (!frame_.direction || frame_.depth) return;
-    const ViewPoint d = arrow_along(*frame_.direction, 0.42);
+    const ViewPoint d = arrow_along(*frame_.direction, direction_arrow);
     if (d.isZero(0)) return;
     picture_.arrow(ViewPoint::Zero(), d, palette_.simplex);
     label(d, "d", palette_.simplex);
@@ -234,17 +249,46 @@ class DifferencePainter : public Painter {
     }
   }
 
+  /// The nearest point of the simplex. A frame forgets it when the next support is asked for; at the end of the run it is the answer, and the last cut has it.
+  const AnyVector* nearest_point() const {
+    if (frame_.closest) return &*frame_.closest;
+    if (!frame_.gjk_status || frame_.stage != Frame::Stage::done || frame_.epa_status) return nullptr;
+    for (std::size_t i = frame_.step; i-- > 0 && !kind_name(recording_.events[i]).ends_with("_began");)
+      if (const auto* e = std::get_if<recorded::SimplexReduced>(&recording_.events[i])) return e->closest.size() > 0 ? &e->closest : nullptr;
+    return nullptr;
+  }
+
   void closest() {
-    if (!frame_.closest || !frame_.faces.empty()) return;
-    const ViewPoint v = to_view(*frame_.closest);
+    const AnyVector* nearest = nearest_point();
+    if (!nearest || !frame_.faces.empty()) return;
+    const ViewPoint v = to_view(*nearest);
     if (v.norm() > 1e-6 * unit()) {
       picture_.lines.push_back({ViewPoint::Zero(), v, palette_.text_soft, 1.6, Stroke::dashed, false, true});
       picture_.points.push_back({v, palette_.text, 6, Mark::ring, -1});
-      label(v, "v", palette_.text);
+      name_dot(v, "v", palette_.text);
     }
   }
 
+  /// One dot, one label: what lies in the same place is the same point, and "v = A" says so.
+  void name_dot(const ViewPoint& at, const std::string& name, Colour colour) {
+    for (PictureLabel& other : picture_.labels)
+      if (other.dot && (other.at - at).norm() <= 1e-9 * unit()) {
+        other.text += " = " + name;
+        return;
+      }
+    label(at, name, colour);
+    if (settings_.labels) picture_.labels.back().dot = true;
+  }
+
+  /// Those of a polytope go by their numbers, as long as there is room for them.
+  bool numbered() const {
+    std::set<int> corners;
+    for (const auto& [number, f] : frame_.faces) corners.insert(f.vertices.begin(), f.vertices.end());
+    return !corners.empty() && corners.size() <= 14;
+  }
+
   void vertices() {
+    const bool numbers = numbered();
     for (const auto& [number, v] : frame_.vertices) {
       const std::string letter = letter_of(number);
       const bool dropped = std::find(frame_.dropped.begin(), frame_.dropped.end(), number) != frame_.dropped.end();
@@ -255,8 +299,9 @@ class DifferencePainter : public Painter {
       picture_.points.push_back({w, colour, newest ? 6.5 : dropped ? 4.0 : letter.empty() ? 3.5 : 6.0, Mark::disc, number});
       if (settings_.selected == number || settings_.pointed == number) mark_selected(w);
       if (dropped) label(w, letter.empty() ? "dropped" : letter + " dropped", palette_.dropped);
-      else if (!letter.empty()) label(w, letter, palette_.text);
-      else if (newest) label(w, "w", palette_.newest);
+      else if (!letter.empty()) name_dot(w, letter, palette_.text);
+      else if (newest) name_dot(w, numbers ? "w #" + std::to_string(number) : "w", palette_.newest);
+      else if (numbers) small_label(w, "#" + std::to_string(number), palette_.text_faint);
     }
   }
 };

@@ -46,7 +46,7 @@ void Painter::mark_number(const ViewPoint& at, double value, double dx, double d
   if (!settings_.labels) return;
   char text[24];
   std::snprintf(text, sizeof text, "%.4g", std::abs(value) < 1e-12 * unit() ? 0.0 : value);
-  picture_.scale_marks.push_back({at, text, palette_.text_faint.with_alpha(0.75), dx, dy});
+  picture_.scale_marks.push_back({at, text, palette_.text_faint.with_alpha(0.75), dx, dy, true, false});
 }
 
 void Painter::mesh(const DisplayMesh& m, Colour colour, double opacity, const ViewPoint& offset) {
@@ -76,7 +76,11 @@ void Painter::mesh(const DisplayMesh& m, Colour colour, double opacity, const Vi
 }
 
 void Painter::label(const ViewPoint& at, const std::string& text, Colour colour, double dx, double dy) {
-  if (settings_.labels && !text.empty()) picture_.labels.push_back({at, text, colour, dx, dy});
+  if (settings_.labels && !text.empty()) picture_.labels.push_back({at, text, colour, dx, dy, false, false});
+}
+
+void Painter::small_label(const ViewPoint& at, const std::string& text, Colour colour) {
+  if (settings_.labels && !text.empty()) picture_.labels.push_back({at, text, colour, 6, -8, true, false});
 }
 
 const FrameVertex* Painter::vertex(int number) const {

@@ -34,6 +34,7 @@ class Painter {
   void grid();
   void mesh(const DisplayMesh& m, Colour colour, double opacity, const ViewPoint& offset);
   void label(const ViewPoint& at, const std::string& text, Colour colour, double dx = 9, double dy = -9);
+  void small_label(const ViewPoint& at, const std::string& text, Colour colour);
   void mark_number(const ViewPoint& at, double value, double dx, double dy);
   void mark_selected(const ViewPoint& at) { picture_.points.push_back({at, palette_.text, 10, Mark::ring, -1}); }
 

@@ -13,6 +13,11 @@ struct Colour {
     const auto mix = [t](std::uint8_t c) { return static_cast<std::uint8_t>(t >= 0 ? c + (255 - c) * t : c * (1 + t)); };
     return {mix(r), mix(g), mix(b), a};
   }
+  /// Halfway to another.
+  constexpr Colour mixed(Colour o) const {
+    const auto half = [](int x, int y) { return static_cast<std::uint8_t>((x + y) / 2); };
+    return {half(r, o.r), half(g, o.g), half(b, o.b), a};
+  }
   bool operator==(const Colour&) const = default;
 };
 

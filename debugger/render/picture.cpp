@@ -47,7 +47,7 @@ class LabelPlaces {
   LabelPlaces(const std::vector<FlatItem>& drawn, const ViewRectangle& view, double scale) : drawn_(drawn), view_(view), scale_(scale) {}
 
   Box take(const Projected& at, const PictureLabel& label) {
-    const double w = 8.5 * static_cast<double>(label.text.size()), h = 17, right = std::abs(label.dx), side = label.dy;
+    const double w = (label.small ? 6.5 : 8.5) * static_cast<double>(label.text.size()), h = label.small ? 13 : 17, right = std::abs(label.dx), side = label.dy;
     const auto centred = [&](double dx, double dy) { return Box{at.x + scale_ * dx, at.y + scale_ * (dy - h / 2), scale_ * w, scale_ * h}; };
     const std::array<Box, 12> boxes{centred(label.dx, side), centred(-right - w, side), centred(right, -side), centred(-right - w, -side),
                                     centred(-w / 2, side - 14), centred(-w / 2, 14 - side), centred(right + 4, 0), centred(-right - 4 - w, 0),
@@ -61,7 +61,9 @@ class LabelPlaces {
   }
 
  private:
-  /// In pixels of a strong line: a point counts as many as it is wide and some, a label or the border of the view far more.
+  static double weight(const FlatItem& line) { return line.width >= 2 ? 1 : 0.5 * line.colour.a / 255; }
+
+  /// In pixels of a strong line: a weaker one counts half at most, a point as many as it is wide and some, a label or the border of the view far more.
   double hides(const Box& box) const {
     double sum = 0;
     if (box.x < view_.x || box.x + box.w > view_.x + view_.width || box.y < view_.y || box.y + box.h > view_.y + view_.height) sum += 1000;
@@ -70,7 +72,7 @@ class LabelPlaces {
       const Projected& p = item.points.front();
       const double r = scale_ * item.width;
       if (item.kind == FlatItem::Kind::point && box.meets({p.x - r, p.y - r, 2 * r, 2 * r})) sum += 2 * r + 10;
-      if (item.kind == FlatItem::Kind::line && item.width >= 2) sum += length_inside(box, p, item.points.back());
+      if (item.kind == FlatItem::Kind::line && item.width > 1) sum += weight(item) * length_inside(box, p, item.points.back());
     }
     return sum;
   }
@@ -81,7 +83,16 @@ class LabelPlaces {
   std::vector<Box> taken_;
 };
 
-std::vector<FlatItem> placed_labels(const Picture& picture, const Projection& project, const std::vector<FlatItem>& drawn, double scale) {
+FlatItem flat_point(const PicturePoint& point, const Projection& project) {
+  FlatItem item;
+  item.kind = FlatItem::Kind::point;
+  item.points = {project(point.at)};
+  item.colour = point.colour, item.width = point.radius, item.mark = point.mark, item.vertex = point.vertex;
+  return item;
+}
+
+std::vector<FlatItem> placed_labels(const Picture& picture, const Projection& project, std::vector<FlatItem> drawn, double scale) {
+  for (const PicturePoint& point : picture.kept_free) drawn.push_back(flat_point(point, project));
   LabelPlaces places(drawn, project.rectangle(), scale);
   std::vector<FlatItem> out;
   for (const PictureLabel& label : picture.labels) {
@@ -90,7 +101,7 @@ std::vector<FlatItem> placed_labels(const Picture& picture, const Projection& pr
     FlatItem item;
     item.kind = FlatItem::Kind::label;
     item.points = {{box.x, box.y, at.depth}};
-    item.colour = label.colour, item.text = label.text;
+    item.colour = label.colour, item.text = label.text, item.small = label.small;
     out.push_back(std::move(item));
   }
   return out;
@@ -126,13 +137,7 @@ std::vector<FlatItem> flatten(const Picture& picture, const Projection& project,
   for (auto& [depth, item] : sorted) out.push_back(std::move(item));
   for (const PictureLine& line : picture.lines)
     if (line.on_top) out.push_back(flat_line(line, project));
-  for (const PicturePoint& point : picture.points) {
-    FlatItem item;
-    item.kind = FlatItem::Kind::point;
-    item.points = {project(point.at)};
-    item.colour = point.colour, item.width = point.radius, item.mark = point.mark, item.vertex = point.vertex;
-    out.push_back(std::move(item));
-  }
+  for (const PicturePoint& point : picture.points) out.push_back(flat_point(point, project));
   for (FlatItem& label : placed_labels(picture, project, out, scale)) out.push_back(std::move(label));
   return out;
 }

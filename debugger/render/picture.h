@@ -37,6 +37,8 @@ struct PictureLabel {
   std::string text;
   Colour colour;
   double dx = 9, dy = -9;  ///< pixels from the point
+  bool small = false;
+  bool dot = false;  ///< names a dot, and may be joined by another name of it
 };
 
 struct Picture {
@@ -44,6 +46,7 @@ struct Picture {
   std::vector<PictureLine> lines;
   std::vector<PicturePoint> points;
   std::vector<PictureLabel> labels;
+  std::vector<PicturePoint> kept_free;     ///< not drawn: labels keep off them, for something of the window's lies there
   std::vector<PictureLabel> scale_marks;  ///< small, under everything, never moved apart
 
   void line(const ViewPoint& from, const ViewPoint& to, Colour colour, double width = 1.5, Stroke stroke = Stroke::solid) {

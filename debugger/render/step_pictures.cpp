@@ -17,6 +17,12 @@ SceneMeshes scene_meshes(const Scene& scene) {
 
 double half_view(const Projection& projection) { return std::min(projection.rectangle().width, projection.rectangle().height) / projection.pixels_per_length() / 2; }
 
+ViewPoint middle(const DisplayMesh& mesh) {
+  ViewPoint low = mesh.points[0], high = low;
+  for (const ViewPoint& p : mesh.points) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  return (low + high) / 2;
+}
+
 ViewPoint row_offset(int body, int dimension, const Projection& projection) {
   if (dimension > 1) return ViewPoint::Zero();
   return {0, (body == 0 ? 0.3 : -0.3) * half_view(projection), 0};
@@ -33,7 +39,9 @@ namespace {
 
 struct Bounds {
   ViewPoint low = ViewPoint::Constant(INFINITY), high = ViewPoint::Constant(-INFINITY);
+  std::vector<ViewPoint> points;  ///< those that more than the box is wanted of
   void add(const ViewPoint& p) { low = low.cwiseMin(p), high = high.cwiseMax(p); }
+  void keep(const ViewPoint& p) { add(p), points.push_back(p); }
   Camera camera(int dimension) const {
     Camera c;
     c.target = (low + high) / 2;
@@ -44,42 +52,89 @@ struct Bounds {
   }
 };
 
-}  // namespace
+/// An arrow that will be drawn, from `from`, as long as this share of the camera's radius.
+struct Arrow {
+  ViewPoint from, along;
+};
 
-Camera fit_world(const SceneMeshes& meshes) {
-  Bounds bounds;
-  for (const DisplayMesh& mesh : meshes.bodies)
-    for (const ViewPoint& p : mesh.points) bounds.add(p);
-  return bounds.camera(meshes.dimension);
+void add_arrow(std::vector<Arrow>& arrows, const ViewPoint& from, const AnyVector& direction, double share) {
+  if (from.allFinite() && direction.allFinite() && !direction.isZero(0)) arrows.push_back({from, to_view(direction).stableNormalized() * share});
 }
 
-Camera fit_world(const SceneMeshes& meshes, const Recording& recording) {
+/// The side of a view that spans low to high, of which -1 to 1 are shown: how far it must move, in that measure, and how much more it must show.
+struct Side {
+  double low = 0, high = 0;
+  void add(double x) { low = std::min(low, x), high = std::max(high, x); }
+  double wider() const { return std::max(1.0, (high - low) / 2); }
+  double shift() const { return high - low > 2 ? (high + low) / 2 : std::max(0.0, high - 1) + std::min(0.0, low + 1); }
+};
+
+/// Moves the camera and draws it back, by a quarter at most, until the arrows' tips are in view, as it looks at first. The arrows grow with the radius: a few rounds.
+Camera with_room_for(const std::vector<Arrow>& arrows, const Bounds& shown, int dimension) {
+  constexpr double share = 0.93;  // of the view, so that the arrow's letter has room too
+  const Camera tight = shown.camera(dimension);
+  Camera c = tight;
+  for (int round = 0; round < 4; ++round) {
+    const Projection view(c, {-1 / share, -1 / share, 2 / share, 2 / share});
+    Side across, down;
+    const auto add = [&](const ViewPoint& p) {
+      const Projected at = view(p);
+      across.add(at.x), down.add(at.y);
+    };
+    for (const ViewPoint& p : shown.points) add(p);
+    for (const Arrow& a : arrows) add(a.from + a.along * c.radius);
+    c.target += view.move(across.shift(), down.shift());
+    c.radius = std::min(c.radius * std::max(across.wider(), down.wider()), 1.25 * tight.radius);
+  }
+  return c;
+}
+
+Bounds world_bounds(const SceneMeshes& meshes, const Recording& recording) {
   const Scene& scene = recording.scene.scene;
-  if (!scene.motion) return fit_world(meshes);
   Bounds bounds;
+  for (const DisplayMesh& mesh : meshes.bodies)
+    for (const ViewPoint& p : mesh.points) bounds.keep(p);
+  if (!scene.motion) return bounds;
   const auto add = [&](std::size_t i, const AnyVector& position) {
     const ViewPoint shift = to_view(AnyVector(position - scene.bodies[i].pose.position));
-    for (const ViewPoint& p : meshes.bodies[i].points) bounds.add(p), bounds.add(p + shift);
+    for (const ViewPoint& p : meshes.bodies[i].points) bounds.add(p + shift);
   };
   const double end = recording.result.intersecting ? recording.result.time.value_or(1) : 1;
-  for (std::size_t i = 0; i < meshes.bodies.size(); ++i) add(i, scene.query == Query::cast ? AnyVector(scene.bodies[i].pose.position + scene.bodies[i].motion->velocity * end) : scene.bodies[i].pose.position);
+  for (std::size_t i = 0; i < meshes.bodies.size() && scene.query == Query::cast; ++i) add(i, AnyVector(scene.bodies[i].pose.position + scene.bodies[i].motion->velocity * end));
   for (const Event& event : recording.events)
     if (const auto* state = std::get_if<recorded::State>(&event))
       for (std::size_t i = 0; i < state->bodies.size() && i < meshes.bodies.size(); ++i) add(i, state->bodies[i].position);
-  return bounds.camera(meshes.dimension);
+  for (int corner = 0; corner < 8; ++corner) bounds.keep({(corner & 1 ? bounds.high : bounds.low)[0], (corner & 2 ? bounds.high : bounds.low)[1], (corner & 4 ? bounds.high : bounds.low)[2]});
+  return bounds;
+}
+
+}  // namespace
+
+Camera fit_world(const SceneMeshes& meshes, const Recording& recording) {
+  std::vector<Arrow> arrows;
+  const bool still = !recording.scene.scene.motion;  // of a motion thousands are asked, everywhere: the bodies would become small for them
+  for (const Event& event : recording.events)
+    if (const auto* e = std::get_if<recorded::SupportQueried>(&event); e && still) add_arrow(arrows, to_view(e->a), e->direction, support_arrow), add_arrow(arrows, to_view(e->b), e->direction, -support_arrow);
+  const Result& r = recording.result;
+  if (r.witness_a && r.normal) add_arrow(arrows, to_view(*r.witness_a), *r.normal, normal_arrow);
+  return with_room_for(arrows, world_bounds(meshes, recording), meshes.dimension);
 }
 
 Camera fit_difference(const SceneMeshes& meshes, const Recording& recording) {
   Bounds bounds;
-  bounds.add(ViewPoint::Constant(0));
-  for (const ViewPoint& p : meshes.difference.points) bounds.add(p);
+  bounds.keep(ViewPoint::Zero());
+  for (const ViewPoint& p : meshes.difference.points) bounds.keep(p);
   if (meshes.radius > 0 && std::isfinite(meshes.radius)) {
     const ViewPoint r(meshes.radius, meshes.dimension > 1 ? meshes.radius : 0, meshes.dimension > 2 ? meshes.radius : 0);
     bounds.add(r), bounds.add(-r);
   }
-  for (const Event& event : recording.events)
-    if (const auto given = given_vertex(event)) bounds.add(to_view(given->w));
-  return bounds.camera(meshes.dimension);
+  std::vector<Arrow> arrows;
+  for (const Event& event : recording.events) {
+    if (const auto given = given_vertex(event)) bounds.keep(to_view(given->w));
+    if (const auto* e = std::get_if<recorded::GjkBegan>(&event)) add_arrow(arrows, ViewPoint::Zero(), e->direction, direction_arrow);
+    if (const auto* e = std::get_if<recorded::SupportQueried>(&event)) add_arrow(arrows, ViewPoint::Zero(), e->direction, direction_arrow);
+  }
+  return with_room_for(arrows, bounds, meshes.dimension);
 }
 
 }  // namespace gjkdbg

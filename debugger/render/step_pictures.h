@@ -31,6 +31,10 @@ struct SceneMeshes {
 };
 SceneMeshes scene_meshes(const Scene& scene);
 
+/// The middle of what is seen of a body: its pose's position may lie far from it.
+ViewPoint middle(const DisplayMesh& mesh);
+/// The arrow of a direction in the difference, and of one at a body, as shares of half the view's shorter side.
+inline constexpr double direction_arrow = 0.42, support_arrow = 0.3, normal_arrow = 0.4;
 /// Half of the view's shorter side, in lengths of the scene.
 double half_view(const Projection& projection);
 /// Intervals lie over one another: in 1D each is drawn a little off the line.
@@ -41,9 +45,7 @@ Picture world_picture(const SceneMeshes& meshes, const Recording& recording, con
 Picture difference_picture(const SceneMeshes& meshes, const Recording& recording, const Frame& frame, const ViewSettings& settings, const Palette& palette,
                            const Projection& projection);
 
-/// Cameras that show everything of a scene.
-Camera fit_world(const SceneMeshes& meshes);
-/// And of where its bodies go.
+/// Cameras that show everything of a scene, where its bodies go, and the arrows that will be drawn.
 Camera fit_world(const SceneMeshes& meshes, const Recording& recording);
 Camera fit_difference(const SceneMeshes& meshes, const Recording& recording);
 

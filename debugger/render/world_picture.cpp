@@ -25,6 +25,7 @@ class WorldPainter : public Painter {
     supports();
     projected();
     answer();
+    handles();
     return std::move(picture_);
   }
 
@@ -162,7 +163,7 @@ class WorldPainter : public Painter {
       label(a, "a", palette_.support);
       label(b, "b", palette_.support, 9, 10);
       if (!frame_.direction || !frame_.answered || frame_.depth) continue;  // the next direction is not theirs
-      const ViewPoint d = arrow_along(*frame_.direction);
+      const ViewPoint d = arrow_along(*frame_.direction, support_arrow);
       if (d.isZero(0)) continue;
       picture_.arrow(a, a + d, palette_.simplex);
       picture_.arrow(b, b - d, palette_.simplex);
@@ -190,6 +191,16 @@ class WorldPainter : public Painter {
     label(b, "b", palette_.simplex, 9, 10);
   }
 
+  /// Where the window draws the rings and letters that a body is held by: labels keep off them.
+  void handles() {
+    for (std::size_t i = 0; i < meshes_.bodies.size(); ++i) {
+      const ViewPoint at = (moves() && frame_.step > 0 ? to_view(frame_.places[i].position) : middle(meshes_.bodies[i])) + one_d_offset(static_cast<int>(i));
+      picture_.kept_free.push_back({at, palette_.text, 11, Mark::ring, -1});
+      const double pixel = 1 / projection_.pixels_per_length();
+      if (meshes_.dimension > 1) picture_.kept_free.push_back({at + (17 * projection_.right() + 13.5 * projection_.up()) * pixel, palette_.text, 5, Mark::disc, -1});
+    }
+  }
+
   /// At the last step: the witness points and the normal, and the contact points.
   void answer() {
     if (frame_.step + 1 != recording_.events.size()) return;
@@ -202,7 +213,7 @@ class WorldPainter : public Painter {
     label(a, "witness a", palette_.body_a, 9, 12);
     label(b, "witness b", palette_.body_b, 9, -12);
     if (r.normal) {
-      const ViewPoint tip = a + arrow_along(*r.normal, 0.4);
+      const ViewPoint tip = a + arrow_along(*r.normal, normal_arrow);
       picture_.arrow(a, tip, palette_.frontier);
       label(tip, "n", palette_.frontier);
     }

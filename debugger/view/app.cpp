@@ -11,6 +11,7 @@ App::App(Gallery gallery, float scale) : gallery_(std::move(gallery)) {
   load_fonts(theme, scale);
   apply_colours(theme, true);
   ImGui::GetIO().IniFilename = nullptr;
+  ImGui::GetIO().ConfigDragClickToInputText = true;
 }
 
 void App::open(const std::filesystem::path& file) {
@@ -186,6 +187,15 @@ void App::picture_frame() {
 /// As the window is larger than 800 points high, so are the letters.
 float App::lecture_scale(float window_height) const { return std::clamp(window_height / theme.px(800), 1.f, 2.5f); }
 
+/// On the title's line at the right, where there is room; half as large.
+void App::lecture_place(const std::string& place) {
+  const float line = ImGui::GetItemRectMax().y, title = ImGui::GetItemRectMax().x;
+  const float size = theme.lecture->FontSize * lecture_scale(ImGui::GetIO().DisplaySize.y) / 3.2f, width = theme.lecture->CalcTextSizeA(size, 1e6f, 0, place.c_str()).x;
+  const float left = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x - width;
+  if (left < title + theme.px(16)) return;
+  ImGui::GetWindowDrawList()->AddText(theme.lecture, size, {left, line - size * 1.25f}, packed(theme.palette.text_faint), place.c_str());
+}
+
 /// For a hall: the step in letters that the last row can read, and the scrubber.
 void App::lecture_panel(const Area& area) {
   if (begin_area("lecture", area)) {
@@ -196,6 +206,7 @@ void App::lecture_panel(const Area& area) {
     ImGui::PushFont(theme.lecture_title);
     ImGui::TextUnformatted(e.title.c_str());
     ImGui::PopFont();
+    lecture_place(place_text(session));
     ImGui::PushFont(theme.lecture);
     wrapped(e.text, theme.palette.text_soft);
     ImGui::PopFont();
@@ -238,36 +249,40 @@ void App::top_bar(const Area& area) {
   if (button(theme.dark ? "Light" : "Dark", "The other colours (T)")) preferences.dark = !preferences.dark;
   if (button("Keys", "All keys (?)")) show_keys = !show_keys;
   ImGui::PopStyleColor();
-  if (session.is_open()) {
-    const bool simulated = session.scene().scene.query == Query::simulate;
-    const auto& findings = session.findings();
-    const auto errors = std::count_if(findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Finding::Severity::error; });
-    const bool open = undecided(session.recording().result), wrong = !open && std::any_of(findings.begin(), findings.end(), about_the_answer);
-    const bool neutral = !wrong && (simulated || open);
-    const std::string found = wrong || errors == 0 ? "" : errors == 1 ? "  \xC2\xB7  1 finding" : "  \xC2\xB7  " + std::to_string(errors) + " findings";
-    const std::string result = (wrong ? "wrong: " : "") + result_text(session.recording()) + found, name = session.title() + (session.can_undo() ? " (edited)" : "");
-    const Colour tone = neutral ? theme.palette.text_soft : wrong || session.recording().result.intersecting ? theme.palette.newest : theme.palette.support;
-    std::string method = method_text(session.recording().settings) + "  \xC2\xB7  " + std::string(query_names[static_cast<std::size_t>(session.scene().scene.query)]);
-    const auto width = [&](const std::string& text) { return theme.small->CalcTextSizeA(theme.small->FontSize, 1e6f, 0, text.c_str()).x + theme.px(22); };
-    const float here = ImGui::GetItemRectMax().x + theme.px(16), title = ImGui::CalcTextSize(name.c_str()).x, middle = area.width / 2 - title / 2;
-    const auto both = [&] { return width(result) + width(method) + theme.px(8); };
-    const auto too_wide = [&] { return area.width - both() - theme.px(16) < here; };
-    if (too_wide()) method = method_text(session.recording().settings);  // a narrow window: the query is left out, then all but the name
-    if (too_wide()) method = method_names[static_cast<std::size_t>(session.recording().settings.name)];
-    const bool alone = too_wide();  // not even that
-    const float chips = alone ? width(result) : both();
-    if (std::max(middle, here) + title < area.width - chips - theme.px(24)) {
-      ImGui::SameLine(std::max(middle, here));
-      ImGui::TextUnformatted(name.c_str());
-    }
-    ImGui::SameLine(area.width - chips - theme.px(16));
-    if (!alone) {
-      chip(theme, method, theme.palette.accent);
-      ImGui::SameLine(0, theme.px(8));
-    }
-    chip(theme, result, tone);
-  }
+  if (session.is_open()) title_and_chips(area);
   ImGui::EndChild();
+}
+
+/// What is open, by which method it was solved, and with what result; in a narrow window less of it.
+void App::title_and_chips(const Area& area) {
+  const bool simulated = session.scene().scene.query == Query::simulate;
+  const auto& findings = session.findings();
+  const auto errors = std::count_if(findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Finding::Severity::error; });
+  const bool open = unanswered(session.recording().result), wrong = !open && std::any_of(findings.begin(), findings.end(), about_the_answer);
+  const bool neutral = !wrong && (simulated || open);
+  const std::string found = wrong || errors == 0 ? "" : errors == 1 ? "  \xC2\xB7  1 finding" : "  \xC2\xB7  " + std::to_string(errors) + " findings";
+  const std::string result = (wrong ? "wrong: " : "") + result_text(session.recording()) + found, name = session.title() + (session.can_undo() ? " (edited)" : "");
+  const Colour tone = neutral ? theme.palette.text_soft : wrong ? theme.palette.newest : session.recording().result.intersecting ? theme.palette.chosen : theme.palette.support;
+  const std::string whole = method_text(session.recording()), short_name = foreign(session.recording()) ? "yours" : std::string(method_names[static_cast<std::size_t>(session.recording().settings.name)]);
+  std::string method = whole + "  \xC2\xB7  " + std::string(query_names[static_cast<std::size_t>(session.scene().scene.query)]);
+  const auto width = [&](const std::string& text) { return theme.small->CalcTextSizeA(theme.small->FontSize, 1e6f, 0, text.c_str()).x + theme.px(22); };
+  const float here = ImGui::GetItemRectMax().x + theme.px(16), title = ImGui::CalcTextSize(name.c_str()).x, middle = area.width / 2 - title / 2;
+  const auto both = [&] { return width(result) + width(method) + theme.px(8); };
+  const auto too_wide = [&] { return area.width - both() - theme.px(16) < here; };
+  if (too_wide()) method = whole;  // a narrow window: the query is left out, then all but the name
+  if (too_wide()) method = short_name;
+  const bool alone = too_wide();  // not even that
+  const float chips = alone ? width(result) : both();
+  if (std::max(middle, here) + title < area.width - chips - theme.px(24)) {
+    ImGui::SameLine(std::max(middle, here));
+    ImGui::TextUnformatted(name.c_str());
+  }
+  ImGui::SameLine(area.width - chips - theme.px(16));
+  if (!alone) {
+    chip(theme, method, theme.palette.accent);
+    ImGui::SameLine(0, theme.px(8));
+  }
+  chip(theme, result, tone);
 }
 
 void App::left_panel(const Area& area) {

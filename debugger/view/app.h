@@ -72,9 +72,11 @@ class App {
   void control_keys(bool shift);
   void view_keys();
   void top_bar(const Area& area);
+  void title_and_chips(const Area& area);
   void left_panel(const Area& area);
   void icon_rail(const Area& area);
   void lecture_panel(const Area& area);
+  void lecture_place(const std::string& place);
   float lecture_scale(float window_height) const;
   void panels(const Area& window);
   void splitter(const char* name, const Area& area, bool vertical, float& value, float low, float high, float sign);
@@ -83,6 +85,7 @@ class App {
   void dialogs();
   void file_dialog();
   void find_dialog();
+  void find_again(bool backwards);
   void go_to_dialog();
 
   Gallery gallery_;
@@ -91,6 +94,7 @@ class App {
   std::optional<LeftTab> rail_opens_;  ///< with the next frame
   Asking asking_ = Asking::nothing, asked_ = Asking::nothing;
   std::string find_error_;
+  std::optional<std::size_t> found_;  ///< by the dialog's last search
   char file_buffer_[1024] = {}, find_buffer_[256] = {};
   int go_to_ = 0;
   float notice_left_ = 0;  ///< seconds
@@ -132,11 +136,16 @@ const char* short_kind(const Event& event);
 
 /// The answer in a few words: "overlapping, depth 0.1".
 std::string result_text(const Recording& recording);
-/// Whether a limit came before an answer: the bounds leave both open.
-bool undecided(const Result& result);
-/// "gjk · signed-volumes · double"
-std::string method_text(const Settings& settings);
-/// Where `text` is found: a condition if it compares something, else a part of the event's name and summary.
+/// "gjk · signed-volumes · double"; of another implementation's run "your solver"
+std::string method_text(const Recording& recording);
+/// Where the two runs that are compared part, in the words that stand wherever it is said.
+std::string parting_text(const Session& session);
+/// Whether two runs come to the same, within 1e-9.
+bool answers_agree(const Result& a, const Result& b);
+/// "Step 14 of 22 · EPA iteration 1"
+std::string place_text(Session& session);
+/// Where `text` is found, in either case: a condition if it compares something, else a part of the event's name and summary, or where no step has it there
+/// of a step's title and sentence (of at most 20,000 steps).
 std::optional<std::size_t> find_text(const Session& session, const std::string& text, std::size_t from, bool backwards);
 
 }  // namespace gjkdbg

@@ -13,7 +13,7 @@ void App::dialogs() {
   if (asking_ != Asking::nothing) {
     asked_ = std::exchange(asking_, Asking::nothing);
     ImGui::OpenPopup("ask");
-    find_error_.clear();
+    find_error_.clear(), found_.reset();
     go_to_ = session.is_open() ? static_cast<int>(session.step()) : 0;
     const std::string suggestion = asked_ == Asking::save ? session.title() + ".scene.json" : "";
     if (asked_ == Asking::save || asked_ == Asking::open || asked_ == Asking::compare) {
@@ -61,11 +61,11 @@ void App::file_dialog() {
 void App::find_dialog() {
   ImGui::TextUnformatted("Find a step");
   ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
-  ImGui::TextWrapped("A part of what the list shows, or a condition: upper_bound < 1e-3, region.size == 3, status == stalled, any warning");
+  ImGui::TextWrapped("A part of what the list shows, or of a step's sentence, or a condition: upper_bound < 1e-3, region.size == 3, status == stalled, any warning");
   ImGui::PopStyleColor();
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
-  const bool entered = ImGui::InputText("##find", find_buffer_, sizeof find_buffer_, ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = ImGui::InputText("##find", find_buffer_, sizeof find_buffer_, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   if (entered) ImGui::SetKeyboardFocusHere(-1);
   const bool next = ImGui::Button("Next (F3)") || entered;
   ImGui::SameLine();
@@ -75,14 +75,16 @@ void App::find_dialog() {
   if (next || previous) {
     find_error_.clear();
     try {
-      if (const auto step = find_text(session, find_buffer_, session.step(), previous)) session.go_to(*step);
+      found_ = find_text(session, find_buffer_, session.step(), previous);
+      if (found_) session.go_to(*found_);
       else find_error_ = "no step has it";
     } catch (const Error& e) {
       find_error_ = e.message();
     }
   }
   if (!find_error_.empty()) ImGui::TextColored(vec(theme.palette.newest), "%s", find_error_.c_str());
-  else ImGui::TextColored(vec(theme.palette.text_faint), "step %zu: %s", session.step(), summary(session.recording(), session.step()).c_str());
+  else if (found_) ImGui::TextColored(vec(theme.palette.text_faint), "step %zu: %s", *found_, summary(session.recording(), *found_).c_str());
+  else ImGui::NewLine();  // the dialog keeps its height
 }
 
 void App::go_to_dialog() {

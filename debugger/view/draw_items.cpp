@@ -84,7 +84,9 @@ void draw_items(ImDrawList* draw, const std::vector<FlatItem>& items, const Them
         if (small_marks) break;
         const ImVec2 p = at(item.points[0]);
         if (item.small) {
-          draw->AddText(theme.small, text_size(theme.small) * 0.85f, p, packed(item.colour), item.text.c_str());
+          const float size = text_size(theme.small) * 0.85f;
+          draw->AddText(theme.small, size, {p.x + 1, p.y + 1}, packed(theme.palette.view), item.text.c_str());
+          draw->AddText(theme.small, size, p, packed(item.colour), item.text.c_str());
           break;
         }
         draw->AddText(theme.text, text_size(theme.text), {p.x + 1, p.y + 1}, packed(theme.palette.view), item.text.c_str());

@@ -4,32 +4,27 @@
 #include <cmath>
 
 #include "debugger/render/step_pictures.h"
+#include "debugger/view/explain_motion.h"
 #include "recordings/region_tests.h"
 
 namespace gjkdbg {
 
 namespace {
 
-/// "iteration_limit": iteration limit.
-std::string in_words(std::string_view name) {
-  std::string words(name);
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
-}
-
 std::string feature_name(std::size_t vertices) {
   static const char* const names[] = {"nothing", "vertex", "edge", "triangle", "tetrahedron"};
   return vertices < 5 ? names[vertices] : "simplex";
 }
 
-std::string sentence(GjkStatus status, const recorded::GjkEnded& e) {
-  switch (status) {
+/// `bodies`: what the origin lies in the difference of, "bodies" or "cores".
+std::string sentence(const recorded::GjkEnded& e, const std::string& bodies) {
+  switch (e.status) {
     case GjkStatus::converged:
       if (!std::isfinite(e.lower_bound) || !std::isfinite(e.upper_bound)) return "The search ends, and the bodies are called apart. How far is not said here.";
       return "No support lies nearer the origin than v: the bounds " + short_number(e.lower_bound) + " and " + short_number(e.upper_bound) + " have met. The signed distance is known.";
     case GjkStatus::separated: return "The plane of the last support has all of A - B on its far side, so the bodies are apart. Only yes or no was asked, and this is the proof.";
     case GjkStatus::within_radius: return "The cores are apart, but nearer than the radii around them: the bodies overlap, and no more was asked.";
-    case GjkStatus::enclosed: return "The simplex encloses the origin: some point of A is also a point of B. The cores overlap.";
+    case GjkStatus::enclosed: return "The simplex encloses the origin: some point of A is also a point of B. The " + bodies + " overlap.";
     case GjkStatus::touching: return "The origin lies on the simplex, within rounding: on a vertex, an edge or a face. Whether this is touch or overlap, EPA will tell.";
     case GjkStatus::stalled: return "|v| no longer falls: the precision is used up, or the method's own rule stops it. The bounds say how much is known.";
     case GjkStatus::iteration_limit: return "The iteration limit is reached before the bounds met. This is no answer; the bounds say how much is known.";
@@ -39,23 +34,23 @@ std::string sentence(GjkStatus status, const recorded::GjkEnded& e) {
   return {};
 }
 
-std::string sentence(EpaStatus status, const recorded::EpaEnded& e) {
-  switch (status) {
+/// `face`: what the polytope's border consists of, "face" or in the plane "edge".
+std::string sentence(const recorded::EpaEnded& e, const std::string& face, const std::string& bodies) {
+  switch (e.status) {
     case EpaStatus::converged:
-      return "No vertex lies beyond the chosen face: it is part of the boundary of A - B, and its distance is the depth. Moving B by " + short_number(e.depth) + " along " +
+      return "No vertex lies beyond the chosen " + face + ": it is part of the boundary of A - B, and its distance is the depth. Moving B by " + short_number(e.depth) + " along " +
              short_vector(e.normal) + " just separates the bodies.";
-    case EpaStatus::flat: return "A - B has no volume here: the cores touch without depth. The normal is across the flat difference.";
+    case EpaStatus::flat: return std::string("A - B has no ") + (face == "edge" ? "area" : "volume") + " here: the " + bodies + " touch without depth. The normal is across the flat difference.";
     case EpaStatus::separated: return "A support plane has the origin on its far side: the bodies are apart after all, by less than GJK could tell.";
-    case EpaStatus::stalled: return "No face can be added in this precision. The last good face is the answer, and the bounds say how exact it is.";
+    case EpaStatus::stalled: return "No " + face + " can be added in this precision. The last good " + face + " is the answer, and the bounds say how exact it is.";
     case EpaStatus::iteration_limit: return "The limit is reached before the bounds met, as on round shapes with many directions equally good. The bounds say how much is known.";
     case EpaStatus::aborted: return "The solver ended without an answer.";
   }
   return {};
 }
 
-struct Explain {
-  const Recording& recording;
-  const Frame& frame;
+struct Explain : ExplainMotion {
+  using ExplainMotion::operator();
 
   /// The number that speaks against each dropped vertex: its weight in the projection of the origin on the part it was tried with.
   std::string why_dropped(const recorded::SimplexReduced& e) const {
@@ -94,6 +89,8 @@ struct Explain {
     return std::any_of(bodies.begin(), bodies.end(), [](const Body& b) { return b.shape.margin > 0 || std::holds_alternative<Sphere>(b.shape.geometry) || std::holds_alternative<Capsule>(b.shape.geometry); });
   }
 
+  const char* bodies() const { return rounded() ? "cores" : "bodies"; }
+
   /// Where GJK begins when it is not told.
   std::string first_way(const AnyVector& direction) const {
     const auto& bodies = recording.scene.scene.bodies;
@@ -120,22 +117,24 @@ struct Explain {
                                                                          : "It lies at or past the origin along d, so this plane does not separate the bodies.")};
     if (e.phase == Phase::cast) return {"Support for the ray", where + "Nothing of A - B lies beyond the plane there: if the point x on the ray still does, x moves on to that plane."};
     if (e.phase == Phase::sat) return {"Support along an axis", where + "How far it reaches past the origin is how far the bodies overlap along this axis."};
-    if (e.phase == Phase::epa) return {"Support across the chosen face", where + reach_across(e)};
+    if (e.phase == Phase::epa) return {"Support across the chosen " + facet(), where + reach_across(e)};
     const double along = e.direction.stableNormalized().dot(e.w);
     if (frame.simplex.size() <= 1) return {"First support", where + "One corner of the difference is a start: the simplex is this point."};
     const auto [title, why] = way(e.direction);
-    return {title, why + where + (along < 0 ? "It lies " + short_number(-along) + " short of the origin along d: all of A - B does, so the " + (rounded() ? "cores" : "bodies") + " are at least that far apart."
+    return {title, why + where + (along < 0 ? "It lies " + short_number(-along) + " short of the origin along d: all of A - B does, so the " + bodies() + " are at least that far apart."
                                                               : "It lies at or past the origin along d, so nothing is proven yet.")};
   }
+
+  std::string facet() const { return facet_name(recording); }
 
   /// How far EPA's support reaches, against the face chosen before it, and what comes of it.
   std::string reach_across(const recorded::SupportQueried& e) const {
     const auto* chosen = frame.step > 0 ? std::get_if<recorded::FaceChosen>(&recording.events[frame.step - 1]) : nullptr;
     const bool more = frame.step + 1 < recording.events.size();
     const bool grows = more && std::holds_alternative<recorded::PolytopeGrown>(recording.events[frame.step + 1]);
-    if (!chosen || e.direction.isZero(0)) return "If it lies farther out than the face, the polytope grows to it; if not, the face is the boundary.";
-    return "It reaches " + short_number(e.direction.stableNormalized().dot(e.w)) + ", the face " + short_number(chosen->distance) + ": " +
-           (grows ? "the face is not the boundary, and the polytope grows to it." : "as far as it need be known, nothing lies beyond the face.");
+    if (!chosen || e.direction.isZero(0)) return "If it lies farther out than the " + facet() + ", the polytope grows to it; if not, the " + facet() + " is the boundary.";
+    return "It reaches " + short_number(e.direction.stableNormalized().dot(e.w)) + ", the " + facet() + " " + short_number(chosen->distance) + ": " +
+           (grows ? "the " + facet() + " is not the boundary, and the polytope grows to it." : "as far as it need be known, nothing lies beyond the " + facet() + ".");
   }
 
   /// Whether directions other than -v are asked for.
@@ -176,41 +175,59 @@ struct Explain {
     const std::string title = e.before.size() == e.region.size() ? "The whole " + feature_name(e.region.size()) + " is kept" : "Simplex cut to " + feature_name(e.region.size()) + " " + kept;
     std::string text;
     if (e.before.size() == e.region.size()) {
-      text = "Every vertex of " + all + " is needed";
+      text = "Every vertex of " + all + " is needed" + foot_within(e);
     } else {
       text = "Of " + all + ", the " + feature_name(e.region.size()) + " " + kept + " is nearest the origin; " + letters(frame.dropped, e.before) + (frame.dropped.size() == 1 ? " is" : " are") + " dropped: no part with " +
              (frame.dropped.size() == 1 ? "it" : "them") + " is nearer";
     }
     text += why_dropped(e);
-    if (e.closest.size() == 0) return {title, text + ". The next direction leads from it to the origin."};
+    if (e.closest.size() == 0) return {title, text + "." + what_the_region_means(e)};
     const double length = e.closest.norm();
     if (length == 0) return {title, text + ". The origin lies in it: the nearest point is the origin itself."};
     return {title, text + ". Its nearest point is v = " + short_vector(e.closest) + ", |v| = " + short_number(length) + (led() || ends_here() ? "." : "; the search goes on along -v.")};
   }
 
+  /// Why a simplex of which nothing is dropped is the nearest part of itself.
+  std::string foot_within(const recorded::SimplexReduced& e) const {
+    const auto& weights = e.barycentric;
+    const bool known = e.region.size() > 1 && weights.size() == e.region.size() && std::all_of(weights.begin(), weights.end(), [](double x) { return x > 0; });
+    return known && e.closest.size() > 0 && e.closest.norm() > 0 ? ": the foot of the perpendicular from O lies within it, for all weights are positive" : "";
+  }
+
+  /// Of the form that computes no nearest point: the end says whether the region holds the origin.
+  std::string what_the_region_means(const recorded::SimplexReduced& e) const {
+    const auto* end = ends_here() ? std::get_if<recorded::GjkEnded>(&recording.events[frame.step + 1]) : nullptr;
+    const std::string part = feature_name(e.region.size()) + " " + letters(e.region, e.before);
+    if (!end) return " The next direction leads from it to the origin.";
+    if (end->status == GjkStatus::enclosed) return " The origin lies in the " + part + ": the " + bodies() + " overlap.";
+    if (end->status == GjkStatus::touching) return " The origin lies on the " + part + ", within rounding: the " + bodies() + " touch or overlap.";
+    return "";
+  }
+
   Explanation operator()(const recorded::GjkEnded& e) const {
     if (foreign(recording) && e.status != GjkStatus::aborted)
       return {"The solver ends", std::string("It takes the bodies to be ") + (e.status == GjkStatus::enclosed || e.status == GjkStatus::touching || e.status == GjkStatus::within_radius ? "overlapping." : "apart.")};
-    return {"GJK ends: " + in_words(gjk_status_names[static_cast<std::size_t>(e.status)]), sentence(e.status, e)};
+    return {"GJK ends: " + in_words(gjk_status_names[static_cast<std::size_t>(e.status)]), sentence(e, bodies())};
   }
 
   Explanation operator()(const recorded::PolytopeSeeded& e) const {
-    return {"EPA begins with " + std::to_string(e.faces.size()) + (recording.scene.scene.dimension == 2 ? " edges" : " faces"),
-            "A polytope inside A - B that holds the origin. It grows outwards until its nearest face is part of the boundary; that face's distance is the depth."};
+    return {"EPA begins with " + std::to_string(e.faces.size()) + " " + facet() + "s",
+            "A polytope inside A - B that holds the origin. It grows outwards until its nearest " + facet() + " is part of the boundary; that " + facet() + "'s distance is the depth."};
   }
 
   Explanation operator()(const recorded::FaceChosen& e) const {
-    return {"Nearest face chosen", "Face " + std::to_string(e.face) + " is nearest the origin, at " + short_number(e.distance) + ". The depth is at least that. Is there anything of A - B beyond it?"};
+    return {"Nearest " + facet() + " chosen", std::string(facet() == "edge" ? "Edge " : "Face ") + std::to_string(e.face) + " is nearest the origin, at " + short_number(e.distance) + ". The depth is at least that. Is there anything of A - B beyond it?"};
   }
 
   Explanation operator()(const recorded::PolytopeGrown& e) const {
-    return {"The polytope grows", "The new vertex sees " + std::to_string(e.removed.size()) + (e.removed.size() == 1 ? " face, which is" : " faces, which are") +
-                                      " removed. The hole's rim, the horizon, is joined to it by " + std::to_string(e.added.size()) + " new faces." +
-                                      (frame.lower_bound && frame.upper_bound ? " The depth lies between " + short_number(std::max(0.0, -*frame.upper_bound)) + " and " + short_number(-*frame.lower_bound) + "." : "")};
+    const bool plane = facet() == "edge";
+    const std::string bounds = frame.lower_bound && frame.upper_bound ? " The depth lies between " + short_number(std::max(0.0, -*frame.upper_bound)) + " and " + short_number(-*frame.lower_bound) + "." : "";
+    return {"The polytope grows", "The new vertex sees " + std::to_string(e.removed.size()) + " " + facet() + (e.removed.size() == 1 ? ", which is" : "s, which are") + " removed. " +
+                                      (plane ? "The gap's two ends are" : "The hole's rim, the horizon, is") + " joined to it by " + std::to_string(e.added.size()) + " new " + facet() + "s." + bounds};
   }
 
   Explanation operator()(const recorded::EpaEnded& e) const {
-    return {"EPA ends: " + in_words(epa_status_names[static_cast<std::size_t>(e.status)]), sentence(e.status, e)};
+    return {"EPA ends: " + in_words(epa_status_names[static_cast<std::size_t>(e.status)]), sentence(e, facet(), bodies())};
   }
 
   Explanation operator()(const recorded::MprBegan& e) const {
@@ -310,73 +327,6 @@ struct Explain {
     if (e.status == ClosedFormStatus::separated) return {title, at + "w is nearest to the origin, " + short_number(e.closest.norm()) + " away, and the plane across it proves that. Less the radii, that is the bodies' distance."};
     if (e.normal.norm() > 0) return {title, "The origin lies in A - B. " + at + "the border is nearest, " + short_number(e.closest.norm()) + " along " + short_vector(e.normal) + "; with the radii, that is the depth."};
     return {title, "The origin lies in A - B, so the bodies overlap; no more was asked."};
-  }
-
-  std::string body(int i) const { return body_name(recording, i); }
-
-  Explanation operator()(const recorded::CastBegan& e) const {
-    return {"The cast begins", std::to_string(e.pairs.size()) + (e.pairs.size() == 1 ? " pair of bodies moves" : " pairs of bodies move") + " against each other. When do they meet for the first time?"};
-  }
-
-  Explanation operator()(const recorded::CastAdvanced& e) const {
-    const std::string at = "At time " + short_number(e.time) + " " + body(e.pair[0]) + " and " + body(e.pair[1]) + " are " + short_number(e.distance) + " apart along " + short_vector(e.normal) + ". ";
-    if (e.distance < 0) return {"Inside each other", body(e.pair[0]) + " and " + body(e.pair[1]) + " overlap by " + short_number(-e.distance) + " at time " + short_number(e.time) + ": they meet no later than that."};
-    if (meets_at(recording, frame.step)) return {"They meet", at + "That is within the tolerance, and they still approach: this is the time of impact."};
-    if (recording.settings.name == MethodName::root_finding)
-      if (const auto* next = next_advance(e.pair)) return {"Surely apart for a while", at + "They come nearer by at most " + short_number(e.bound) + " per unit of time; along this normal, or one that turns on with them, the gap stays open until " + short_number(next->time) + "."};
-    if (e.bound <= 0) return {"This pair recedes", at + "Along this normal they do not come nearer any more, so it separates them for good: the pair is left out."};
-    return {"Surely apart for a while", at + "They come nearer by at most " + short_number(e.bound) + " per unit of time, so until " + short_number(e.time + std::max(0.0, e.distance) / e.bound) + " they cannot meet."};
-  }
-
-  /// Of the same pair, before anything responds.
-  const recorded::CastAdvanced* next_advance(const Edge& pair) const {
-    for (std::size_t i = frame.step + 1; i < recording.events.size() && !std::holds_alternative<recorded::State>(recording.events[i]); ++i)
-      if (const auto* next = std::get_if<recorded::CastAdvanced>(&recording.events[i]); next && next->pair == pair) return next;
-    return nullptr;
-  }
-
-  bool responded() const {
-    return std::any_of(recording.events.begin(), recording.events.end(), [](const Event& event) { return std::holds_alternative<recorded::ImpulseApplied>(event); });
-  }
-
-  Explanation operator()(const recorded::CastEnded& e) const {
-    const std::string title = "The cast ends: " + in_words(cast_status_names[static_cast<std::size_t>(e.status)]);
-    const std::string who = e.pair.size() == 2 ? body(e.pair[0]) + " and " + body(e.pair[1]) : "";
-    switch (e.status) {
-      case CastStatus::hit: return {title, "At time " + short_number(e.time) + " " + who + " are within the tolerance of each other and still approaching: this is the time of impact, early by no more than that."};
-      case CastStatus::miss: return {title, responded() ? "Nothing more meets before the interval ends." : "No pair meets before the interval ends."};
-      case CastStatus::initially_overlapping: return {title, who + " overlap at the beginning: there is no first time to look for."};
-      case CastStatus::at_rest: return {title, "Nothing moves any more."};
-      case CastStatus::iteration_limit: return {title, "Until time " + short_number(e.time) + " all are surely apart; no more is known within the limit."};
-    }
-    return {title, {}};
-  }
-
-  Explanation operator()(const recorded::State& e) const {
-    std::string text = "Where the bodies are at time " + short_number(e.time);
-    if (recording.scene.scene.query == Query::simulate) text += ". Energy " + short_number(e.energy) + ", momentum " + short_vector(e.momentum);
-    return {"State at " + short_number(e.time), text + "."};
-  }
-
-  Explanation operator()(const recorded::ContactFound& e) const {
-    return {"A contact", body(e.pair[0]) + " and " + body(e.pair[1]) + " touch at " + short_vector(e.point) + ", " + short_number(e.depth) + " deep along " + short_vector(e.normal) + "."};
-  }
-
-  Explanation operator()(const recorded::ImpulseApplied& e) const {
-    if (recording.scene.scene.query == Query::cast) return responds(e);
-    std::string text = body(e.pair[1]) + " gets the impulse " + short_vector(e.impulse) + " at " + short_vector(e.point) + ", " + body(e.pair[0]) + " the opposite.";
-    if (e.velocities_before.size() == 2 && e.velocities_after.size() == 2)
-      text += " Velocities: " + short_vector(e.velocities_before[0]) + " to " + short_vector(e.velocities_after[0]) + " and " + short_vector(e.velocities_before[1]) + " to " + short_vector(e.velocities_after[1]) + ".";
-    return {"An impulse", text};
-  }
-
-  /// A cast's bodies have no masses: those that move get other velocities.
-  Explanation responds(const recorded::ImpulseApplied& e) const {
-    std::string text = body(e.pair[0]) + " and " + body(e.pair[1]) + " touch at " + short_vector(e.point) + ".";
-    for (std::size_t k = 0; k < std::min(e.velocities_before.size(), e.velocities_after.size()) && k < 2; ++k)
-      if (e.velocities_before[k] != e.velocities_after[k])
-        text += " The velocity of " + body(e.pair[k]) + " goes from " + short_vector(e.velocities_before[k]) + " to " + short_vector(e.velocities_after[k]) + ".";
-    return {"The motion responds", text};
   }
 
   Explanation operator()(const recorded::Warning& e) const { return {"Warning: " + e.code, e.message}; }

@@ -29,6 +29,8 @@ PseudoCode pseudo_code(const Recording& recording, std::size_t step);
 bool meets_at(const Recording& recording, std::size_t step);
 /// The name it has in the scene; "body 0" where it has none.
 std::string body_name(const Recording& recording, int body);
+/// What a polytope's border consists of: "face"; in the plane "edge".
+std::string facet_name(const Recording& recording);
 /// A, B, C, …: what it goes by where there is no room for its name.
 std::string body_letter(int body);
 /// Vertices as A, B, C, D: by their places in `order`.

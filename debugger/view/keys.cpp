@@ -50,12 +50,18 @@ void App::keys() {
   if (key_pressed(Key::m)) session.add_bookmark();
   if (key_pressed(Key::left_bracket)) session.loop = true, session.loop_from = session.step();
   if (key_pressed(Key::right_bracket)) session.loop = true, session.loop_to = session.step();
-  if (key_pressed(Key::f3)) {
-    if (const auto step = find_text(session, find_buffer_, session.step(), shift_held())) session.go_to(*step);
-  }
+  if (key_pressed(Key::f3)) find_again(shift_held());
   for (int i = 1; i <= 9; ++i)
     if (key_pressed(static_cast<Key>(static_cast<int>(Key::digit_1) + i - 1)) && session.bookmarks.contains(i)) session.go_to(session.bookmarks[i]);
   view_keys();
+}
+
+void App::find_again(bool backwards) {
+  try {
+    if (const auto step = find_text(session, find_buffer_, session.step(), backwards)) session.go_to(*step);
+  } catch (const Error& e) {
+    message = e.message();  // a condition that is none, left over from the dialog
+  }
 }
 
 void App::view_keys() {

@@ -284,13 +284,13 @@ void compare_with(App& app) {
   }
   if (!s.comparing()) return;
   ImGui::PushFont(theme.small);
-  if (const auto& parting = s.parting()) {
-    const std::string text = "they part at " + parting->what;
+  const auto& parting = s.parting();
+  if (parting && parting->event < s.count()) {
     ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.accent));
-    if (ImGui::Selectable(text.c_str())) s.go_to(parting->event);
+    if (ImGui::Selectable(("they part at step " + std::to_string(parting->event)).c_str())) s.go_to(parting->event);
     ImGui::PopStyleColor();
   } else {
-    ImGui::TextColored(vec(theme.palette.text_soft), "the same, event by event");
+    wrapped(parting_text(s), theme.palette.text_soft);
   }
   ImGui::PopFont();
 }

@@ -1,11 +1,12 @@
 // The right panel: what the step means, the simplex with its weights, the bounds, the algorithm's lines, the selected vertex.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 
 #include "debugger/view/app.h"
 #include "debugger/view/explain.h"
-#include "debugger/view/right_step.h"
+#include "debugger/view/step_notes.h"
 #include "recordings/mesh_parts.h"
 #include "recordings/region_tests.h"
 
@@ -47,11 +48,8 @@ void heading(App& app) {
   const Theme& theme = app.theme;
   const Explanation e = explain(session.recording(), session.frame());
   ImGui::PushFont(theme.small);
-  const char* phase = phase_name(session.recording().events[session.step()], session.frame());
-  const std::string iteration = session.frame().parallelogram || std::holds_alternative<recorded::State>(session.recording().events[session.step()]) ? "" : std::string(std::strcmp(phase, "motion") == 0 ? "," : "") + " iteration " + std::to_string(session.frame().iteration);
   const std::string time = session.frame().time ? "  \xC2\xB7  time " + short_number(*session.frame().time) : "";
-  const std::string where = "Step " + std::to_string(session.step()) + " of " + std::to_string(session.count() - 1) + "  \xC2\xB7  " + phase + iteration + time;
-  ImGui::TextColored(vec(theme.palette.text_faint), "%s", shortened(theme.small, where, ImGui::GetContentRegionAvail().x).c_str());
+  ImGui::TextColored(vec(theme.palette.text_faint), "%s", shortened(theme.small, place_text(session) + time, ImGui::GetContentRegionAvail().x).c_str());
   if (const std::string triangle = triangle_name(session); !triangle.empty()) ImGui::TextColored(vec(theme.palette.text_faint), "%s, a convex set of its own", triangle.c_str());
   ImGui::PopFont();
   ImGui::PushFont(theme.title);
@@ -129,39 +127,18 @@ void regions(App& app) {
 void counters(App& app) {
   Session& s = app.session;
   const Theme& theme = app.theme;
-  int supports = 0, cuts = 0, grown = 0;
+  int supports = 0, grown = 0;
+  std::size_t dropped = 0;
   for (std::size_t i = 0; i <= s.step(); ++i) {
     supports += std::holds_alternative<recorded::SupportQueried>(s.recording().events[i]);
-    cuts += std::holds_alternative<recorded::SimplexReduced>(s.recording().events[i]);
+    if (const auto* cut = std::get_if<recorded::SimplexReduced>(&s.recording().events[i])) dropped += cut->before.size() - std::min(cut->before.size(), cut->region.size());
     grown += std::holds_alternative<recorded::PolytopeGrown>(s.recording().events[i]);
   }
   section(theme, "SO FAR");
   std::string text = std::to_string(supports) + (supports == 1 ? " support" : " supports");
-  if (cuts > 0) text += ", " + std::to_string(cuts) + (cuts == 1 ? " cut" : " cuts");
+  if (dropped > 0) text += ", " + std::to_string(dropped) + " dropped";
   if (grown > 0) text += ", " + std::to_string(grown) + " grown";
   number_row(theme, "in these steps", text, theme.palette.text_soft);
-}
-
-/// The run beside this one, at the same step.
-void run_beside(App& app) {
-  Session& s = app.session;
-  if (!s.comparing()) return;
-  const Theme& theme = app.theme;
-  section(theme, ("BESIDE IT: " + s.other_title()).c_str());
-  const std::size_t k = std::min(s.step(), s.other().events.size() - 1);
-  ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.body_b));
-  ImGui::TextWrapped("%s: %s", short_kind(s.other().events[k]), summary(s.other(), k).c_str());
-  ImGui::PopStyleColor();
-  const char* but = s.recording().settings.scalar == s.other().settings.scalar ? "" : " but for rounding";
-  if (const auto& p = s.parting()) {
-    std::string fields;
-    for (const std::string& f : p->fields) fields += (fields.empty() ? ": " : ", ") + f;
-    const std::string text = (s.step() < p->event ? std::string("the same so far") + but + "; they part at step " : "they parted at step ") + std::to_string(p->event) + fields;
-    wrapped(text, theme.palette.text_soft);
-  } else {
-    ImGui::TextColored(vec(theme.palette.text_soft), "the same%s, event by event", but);
-  }
-  number_row(theme, "its answer", result_text(s.other()), theme.palette.body_b);
 }
 
 void faces(App& app) {
@@ -169,11 +146,12 @@ void faces(App& app) {
   if (frame.faces.empty()) return;
   const Theme& theme = app.theme;
   section(theme, "POLYTOPE");
-  number_row(theme, "faces", std::to_string(frame.faces.size()), theme.palette.text);
+  const std::string facet = facet_name(app.session.recording());
+  number_row(theme, (facet + "s").c_str(), std::to_string(frame.faces.size()), theme.palette.text);
   if (!frame.added.empty() && !frame.removed.empty()) number_row(theme, "removed / added", std::to_string(frame.removed.size()) + " / " + std::to_string(frame.added.size()), theme.palette.frontier);
   if (frame.chosen && frame.faces.contains(*frame.chosen)) {
     const FrameFace& f = frame.faces.at(*frame.chosen);
-    number_row(app, "nearest face", "#" + std::to_string(f.face), theme.palette.chosen, f.event);
+    number_row(app, ("nearest " + facet).c_str(), "#" + std::to_string(f.face), theme.palette.chosen, f.event);
     number_row(app, "its distance", short_number(f.distance), theme.palette.chosen, f.event);
     number_row(app, "its normal", short_vector(f.normal), theme.palette.chosen, f.event);
   }
@@ -233,6 +211,15 @@ void vertex(App& app) {
   if (ImGui::SmallButton(("from step " + std::to_string(v.event)).c_str())) app.session.go_to(v.event);
 }
 
+/// Of a cast. What the digits on show would not tell from the time before it has the difference written out.
+std::string touching_text(const Result& r) {
+  const std::string text = short_number(*r.touching_at);
+  if (!r.time || text != short_number(*r.time) || *r.touching_at == *r.time) return text;
+  char more[32];
+  std::snprintf(more, sizeof more, " + %.2g", *r.touching_at - *r.time);
+  return text + more;
+}
+
 /// After the last step: the answer and its certificate.
 void answer(App& app) {
   if (app.session.step() + 1 != app.session.count()) return;
@@ -241,14 +228,14 @@ void answer(App& app) {
   const bool first_hit = app.session.scene().scene.query == Query::cast && r.touching_at;
   section(theme, mesh_parts(app.session.recording(), app.session.step()) ? "RESULT, OF ALL TRIANGLES" : first_hit ? "RESULT: THE FIRST HIT" : "RESULT");
   if (r.time) number_row(theme, app.session.scene().scene.query == Query::cast ? "apart until" : "time", short_number(*r.time), theme.palette.text);
-  if (r.touching_at) number_row(theme, "touching at", short_number(*r.touching_at), theme.palette.text);
+  if (r.touching_at) number_row(theme, "touching at", touching_text(r), theme.palette.text);
   if (r.energy) number_row(theme, "energy", short_number(*r.energy), theme.palette.text);
-  if (undecided(r)) {
+  if (unanswered(r)) {
     number_row(theme, "intersecting", "not known", theme.palette.text_soft);
     number_row(theme, "support calls", std::to_string(r.support_calls), theme.palette.text_soft);
     return;
   }
-  number_row(theme, "intersecting", r.intersecting ? "yes" : "no", r.intersecting ? theme.palette.newest : theme.palette.support);
+  number_row(theme, "intersecting", r.intersecting ? "yes" : "no", r.intersecting ? theme.palette.chosen : theme.palette.support);
   if (r.signed_distance) number_row(app, "signed distance", short_number(*r.signed_distance), theme.palette.text, last_of<recorded::GjkEnded, recorded::EpaEnded, recorded::MprEnded, recorded::SatEnded, recorded::ClosedFormEnded, recorded::ProjectionsEnded>(app.session));
   if (r.normal) number_row(theme, "normal", short_vector(*r.normal), theme.palette.text);
   if (r.witness_a) number_row(theme, "witness a", short_vector(*r.witness_a), theme.palette.body_a);
@@ -257,45 +244,23 @@ void answer(App& app) {
   number_row(theme, "support calls", std::to_string(r.support_calls), theme.palette.text_soft);
 }
 
-/// What is wrong with the recording: a click goes to the step; at the step, the whole message.
-void findings(App& app) {
-  Session& s = app.session;
-  const Theme& theme = app.theme;
-  if (s.findings().empty()) return;
-  section(theme, "FINDINGS");
-  for (const Finding& f : s.findings()) {
-    const bool here = f.step == s.step();
-    ImGui::PushStyleColor(ImGuiCol_Text, vec(f.severity == Finding::Severity::error ? theme.palette.newest : theme.palette.frontier));
-    if (ImGui::Selectable(("step " + std::to_string(f.step) + "  " + f.code).c_str(), here)) s.go_to(f.step);
-    ImGui::PopStyleColor();
-    if (ImGui::IsItemHovered() && !here) {
-      ImGui::BeginTooltip();
-      ImGui::PushTextWrapPos(theme.px(420));
-      ImGui::TextUnformatted(f.message.c_str());
-      ImGui::PopTextWrapPos();
-      ImGui::EndTooltip();
-    }
-    if (!here) continue;
-    wrapped(f.message, theme.palette.text_soft);
-  }
-}
-
-/// Beside a foreign run: what a right implementation would have done.
-void right_implementation(App& app) {
-  const std::string text = right_step(app.session.recording(), app.session.frame());
-  if (text.empty()) return;
-  section(app.theme, "A RIGHT IMPLEMENTATION, FROM HERE");
-  wrapped(text, app.theme.palette.support);
-}
-
 }  // namespace
+
+std::string place_text(Session& session) {
+  const Event& event = session.recording().events[runs_at(session.recording(), session.step())];
+  const char* phase = phase_name(event, session.frame());
+  const bool counted = !session.frame().parallelogram && !std::holds_alternative<recorded::State>(event);
+  const std::string iteration = counted ? std::string(std::strcmp(phase, "motion") == 0 ? "," : "") + " iteration " + std::to_string(session.frame().iteration) : "";
+  return "Step " + std::to_string(session.step()) + " of " + std::to_string(session.count() - 1) + "  \xC2\xB7  " + phase + iteration;
+}
 
 void step_panel(App& app, const Area& area) {
   if (!begin_area("step", area, true)) return ImGui::EndChild();
   heading(app);
-  right_implementation(app);
-  findings(app);
-  run_beside(app);
+  scene_note(app);
+  right_note(app);
+  findings_note(app);
+  beside_note(app);
   weights(app);
   regions(app);
   faces(app);

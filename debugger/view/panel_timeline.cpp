@@ -166,7 +166,7 @@ void scrubber(App& app) {
     std::size_t end = i + 1;
     const int phase = phase_of(s.recording().events[i]);
     int iteration = iteration_of(s.recording().events[i]);
-    const auto belongs = [&](const Event& event) { return phase_of(event) == phase && (iteration < 0 || iteration_of(event) < 0 || iteration_of(event) == iteration); };
+    const auto belongs = [&](const Event& event) { return std::holds_alternative<recorded::Warning>(event) || (phase_of(event) == phase && (iteration < 0 || iteration_of(event) == iteration)); };
     for (; end < s.count() && belongs(s.recording().events[end]); ++end)
       if (iteration < 0) iteration = iteration_of(s.recording().events[end]);
     const float x0 = at.x + static_cast<float>(i) * cell, x1 = at.x + static_cast<float>(end) * cell;

@@ -46,13 +46,6 @@ std::optional<int> vertex_under(const std::vector<FlatItem>& items, ImVec2 mouse
   return best;
 }
 
-/// The middle of what is seen of a body: its pose's position may lie far from it.
-ViewPoint middle(const DisplayMesh& mesh) {
-  ViewPoint low = mesh.points[0], high = low;
-  for (const ViewPoint& p : mesh.points) low = low.cwiseMin(p), high = high.cwiseMax(p);
-  return (low + high) / 2;
-}
-
 /// What the mouse holds in the world view.
 struct Held {
   int body = -1;
@@ -146,7 +139,7 @@ struct Shown {
 std::string title_of(App& app, const Shown& shown) {
   const auto& pair = app.session.frame().pair;
   std::string title = shown.world ? "World" : "Minkowski difference " + body_letter(pair[0]) + " \xE2\x88\x92 " + body_letter(pair[1]);
-  if (app.session.comparing()) title += std::string(": ") + (shown.other ? app.session.other_title() : method_text(app.session.recording().settings));
+  if (app.session.comparing()) title += std::string(": ") + (shown.other ? app.session.other_title() : method_text(app.session.recording()));
   return title;
 }
 

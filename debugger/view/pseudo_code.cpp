@@ -89,7 +89,11 @@ struct PseudoCodeOf {
   PseudoCode operator()(const recorded::ClosedFormEnded&) const { return closed_form(5); }
 
   // --- EPA --------------------------------------------------------------------------------------------------------
-  PseudoCode epa(int line) const { return {"EPA", {"P = simplex, completed to enclose O", "repeat", "  f = face of P nearest O", "  w = support(normal of f)", "  if w not beyond f: depth = |f|", "  remove the faces w sees", "  join the horizon to w"}, line}; }
+  PseudoCode epa(int line) const {
+    if (recording.scene.scene.dimension == 2)
+      return {"EPA", {"P = simplex, completed to enclose O", "repeat", "  e = edge of P nearest O", "  w = support(normal of e)", "  if w not beyond e: depth = |e|", "  remove the edges w sees", "  join the ends of the gap to w"}, line};
+    return {"EPA", {"P = simplex, completed to enclose O", "repeat", "  f = face of P nearest O", "  w = support(normal of f)", "  if w not beyond f: depth = |f|", "  remove the faces w sees", "  join the horizon to w"}, line};
+  }
   PseudoCode operator()(const recorded::PolytopeSeeded&) const { return epa(0); }
   PseudoCode operator()(const recorded::FaceChosen&) const { return epa(2); }
   PseudoCode operator()(const recorded::PolytopeGrown&) const { return epa(6); }

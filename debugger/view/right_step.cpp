@@ -7,6 +7,7 @@ namespace gjkdbg {
 namespace {
 
 struct RightStep {
+  const Recording& recording;
   const Frame& frame;
 
   /// The nearest part of the vertices in a list, or nothing when one is not known.
@@ -45,7 +46,7 @@ struct RightStep {
     for (const auto& [number, face] : frame.faces)
       if (!best || face.distance < best->distance) best = &face;
     if (!best) return {};
-    return "Choose face #" + std::to_string(best->face) + ", the nearest, at " + short_number(best->distance) + ", and ask along " + short_vector(best->normal) + ".";
+    return "Choose " + facet_name(recording) + " #" + std::to_string(best->face) + ", the nearest, at " + short_number(best->distance) + ", and ask along " + short_vector(best->normal) + ".";
   }
 
   template <class Other>
@@ -58,7 +59,7 @@ struct RightStep {
 
 std::string right_step(const Recording& recording, const Frame& frame) {
   if (recording.generator == generator_name()) return {};
-  return std::visit(RightStep{frame}, recording.events[frame.step]);
+  return std::visit(RightStep{recording, frame}, recording.events[frame.step]);
 }
 
 }  // namespace gjkdbg

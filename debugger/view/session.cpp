@@ -1,6 +1,7 @@
 #include "debugger/view/session.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "algo/solve.h"
 #include "debugger/view/explain.h"
@@ -17,6 +18,11 @@ int iteration_of(const Event& event) {
       event);
 }
 
+std::size_t runs_at(const Recording& recording, std::size_t step) {
+  while (step > 0 && std::holds_alternative<recorded::Warning>(recording.events[step])) --step;
+  return step;
+}
+
 int phase_of(const Event& event) {
   if (const auto* query = std::get_if<recorded::SupportQueried>(&event)) return query->phase == Phase::seed || query->phase == Phase::epa ? 1 : 0;
   return std::holds_alternative<recorded::PolytopeSeeded>(event) || std::holds_alternative<recorded::FaceChosen>(event) ||
@@ -30,6 +36,22 @@ namespace {
 /// The same kind of event in the same iteration of the same phase.
 bool same_place(const Event& x, const Event& y) {
   return x.index() == y.index() && iteration_of(x) == iteration_of(y) && phase_of(x) == phase_of(y);
+}
+
+/// Whether something comes of the runs before it: the bodies move on, touch, are pushed.
+bool of_the_motion(const Event& event) {
+  return std::holds_alternative<recorded::CastAdvanced>(event) || std::holds_alternative<recorded::State>(event) || std::holds_alternative<recorded::ContactFound>(event) ||
+         std::holds_alternative<recorded::ImpulseApplied>(event);
+}
+
+/// An error of the scene as the panel calls things: without the file's path to it.
+std::string in_the_panels_words(const Error& e) {
+  std::string text = e.message(), who;
+  if (e.where().starts_with("/bodies/")) who = body_letter(std::atoi(e.where().c_str() + 8)) + ": ";
+  else if (!e.where().starts_with("/method") && e.where() != "/query") return e.line();
+  if (text.starts_with("must ")) text = e.where().substr(e.where().rfind('/') + 1) + " " + text;
+  std::replace(text.begin(), text.end(), '_', ' ');
+  return who + text;
 }
 
 }  // namespace
@@ -113,7 +135,7 @@ std::string Session::compare_with(const Method& method, std::string title) {
     solve_other();
     return {};
   } catch (const Error& e) {
-    return e.line();
+    return in_the_panels_words(e);
   }
 }
 
@@ -155,7 +177,10 @@ void Session::step_by(int events) {
 }
 
 void Session::step_iteration(int direction) {
-  const auto key = [&](std::size_t i) { return std::pair(phase_of(recording_.events[i]), iteration_of(recording_.events[i])); };
+  const auto key = [&](std::size_t i) {
+    const Event& event = recording_.events[runs_at(recording_, i)];
+    return std::pair(phase_of(event), iteration_of(event));
+  };
   const auto from = key(step_);
   const auto stops = [&](std::size_t i) { return i == 0 || i + 1 == count() || key(i) != from; };
   do step_by(direction);
@@ -165,12 +190,15 @@ void Session::step_iteration(int direction) {
     while (step_ > 0 && key(step_ - 1) == key(step_)) --step_;
 }
 
+/// Of a motion, every event that moves it on is a phase of its own.
 void Session::step_phase(int direction) {
-  const int from = phase_of(recording_.events[step_]);
+  const auto phase = [&](std::size_t i) { return phase_of(recording_.events[runs_at(recording_, i)]); };
+  const auto own = [&](std::size_t i) { return recording_.scene.scene.motion && of_the_motion(recording_.events[i]); };
+  const int from = phase(step_);
   do step_by(direction);
-  while (step_ > 0 && step_ + 1 < count() && phase_of(recording_.events[step_]) == from);
+  while (step_ > 0 && step_ + 1 < count() && !own(step_) && phase(step_) == from);
   if (direction < 0)
-    while (step_ > 0 && phase_of(recording_.events[step_ - 1]) == phase_of(recording_.events[step_])) --step_;
+    while (step_ > 0 && !own(step_) && phase(step_ - 1) == phase(step_)) --step_;
 }
 
 void Session::toggle_play() {
@@ -276,7 +304,7 @@ std::string Session::edit(const SceneFile& next) {
     redo_.clear();
     return {};
   } catch (const Error& e) {
-    return e.line();
+    return in_the_panels_words(e);
   }
 }
 

@@ -114,6 +114,8 @@ class Session {
 
 /// The iteration an event belongs to, beginnings to the 0th; -1 for none.
 int iteration_of(const Event& event);
+/// The event that a step is about: its own, or of a warning the one before it, in whose iteration the warning was given.
+std::size_t runs_at(const Recording& recording, std::size_t step);
 /// 0 before and in GJK, MPR and SAT, 1 in EPA (its start included), per run.
 int phase_of(const Event& event);
 

@@ -47,6 +47,8 @@ std::string body_name(const Recording& recording, int body) {
   return name.empty() ? "body " + std::to_string(body) : name;
 }
 
+std::string facet_name(const Recording& recording) { return recording.scene.scene.dimension == 2 ? "edge" : "face"; }
+
 std::string body_letter(int body) { return body < 26 ? std::string(1, static_cast<char>('A' + body)) : std::to_string(body); }
 
 namespace {
@@ -61,10 +63,11 @@ struct Summarise {
     return letters(e.before, e.before) + " -> " + letters(e.region, e.before) + (e.closest.size() > 0 ? "  |v| = " + short_number(e.closest.norm()) : "");
   }
   std::string operator()(const recorded::GjkEnded& e) const { return std::string(gjk_status_names[static_cast<std::size_t>(e.status)]); }
-  std::string operator()(const recorded::PolytopeSeeded& e) const { return std::to_string(e.vertices.size()) + " vertices, " + std::to_string(e.faces.size()) + " faces"; }
-  std::string operator()(const recorded::FaceChosen& e) const { return "face " + std::to_string(e.face) + " at " + short_number(e.distance); }
-  std::string operator()(const recorded::PolytopeGrown& e) const { return "-" + std::to_string(e.removed.size()) + " +" + std::to_string(e.added.size()) + " faces"; }
+  std::string operator()(const recorded::PolytopeSeeded& e) const { return std::to_string(e.vertices.size()) + " vertices, " + std::to_string(e.faces.size()) + " " + facet_name(recording) + "s"; }
+  std::string operator()(const recorded::FaceChosen& e) const { return facet_name(recording) + " " + std::to_string(e.face) + " at " + short_number(e.distance); }
+  std::string operator()(const recorded::PolytopeGrown& e) const { return "-" + std::to_string(e.removed.size()) + " +" + std::to_string(e.added.size()) + " " + facet_name(recording) + "s"; }
   std::string operator()(const recorded::EpaEnded& e) const {
+    if (e.status == EpaStatus::aborted) return "aborted";  // no depth was found
     return std::string(epa_status_names[static_cast<std::size_t>(e.status)]) + "  depth " + short_number(e.depth);
   }
   std::string operator()(const recorded::MprBegan& e) const { return "from " + short_vector(e.interior); }

@@ -37,4 +37,9 @@ void Thumbnails::draw(const Gallery& gallery, const std::string& scene, const Th
   draw->PopClipRect();
 }
 
+std::string Thumbnails::description(const std::string& scene) const {
+  const auto found = made_so_far_.find(scene);
+  return found == made_so_far_.end() ? std::string() : found->second.recording.scene.scene.description;
+}
+
 }  // namespace gjkdbg

@@ -14,6 +14,8 @@ class Thumbnails {
  public:
   /// The last step of a scene in the world, in a rectangle.
   void draw(const Gallery& gallery, const std::string& scene, const Theme& theme, ImVec2 from, ImVec2 to);
+  /// What the scene says of itself; nothing until its picture is made.
+  std::string description(const std::string& scene) const;
   /// Call once a frame: allows the next one to be made.
   void next_frame() { made_ = false, busy_ = waiting_, waiting_ = false; }
   /// Whether some are still to be made.

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "debugger/view/app.h"
 #include "debugger/view/explain.h"
 
@@ -128,7 +131,9 @@ const char* short_kind(const Event& event) {
   return names[event.index()];
 }
 
-std::string method_text(const Settings& s) {
+std::string method_text(const Recording& recording) {
+  if (foreign(recording)) return "your solver";  // whatever method the file names
+  const Settings& s = recording.settings;
   std::string text(method_names[static_cast<std::size_t>(s.name)]);
   if (s.name == MethodName::gjk_accelerated && s.acceleration != Acceleration::nesterov) text += " \xC2\xB7 " + std::string(acceleration_names[static_cast<std::size_t>(s.acceleration)]);
   if (s.closest_point != ClosestPoint::signed_volumes) text += " \xC2\xB7 " + std::string(closest_point_names[static_cast<std::size_t>(s.closest_point)]);
@@ -137,30 +142,26 @@ std::string method_text(const Settings& s) {
   return text + " \xC2\xB7 " + std::string(scalar_names[static_cast<std::size_t>(s.scalar)]);
 }
 
-std::optional<std::size_t> find_text(const Session& session, const std::string& text, std::size_t from, bool backwards) {
-  if (text.empty()) return std::nullopt;
-  const Recording& recording = session.recording();
-  if (text.find_first_of("<>=") != std::string::npos || text.starts_with("any ")) return find_step(Condition(text), recording, session.findings(), from, backwards);
-  const std::size_t count = recording.events.size();
-  for (std::size_t k = 1; k <= count; ++k) {
-    const std::size_t step = backwards ? (from + count - k) % count : (from + k) % count;
-    const Event& event = recording.events[step];
-    const std::string line = std::string(kind_name(event)) + " " + short_kind(event) + " " + summary(recording, step);
-    if (line.find(text) != std::string::npos) return step;
-  }
-  return std::nullopt;
+std::string parting_text(const Session& session) {
+  const std::string but = session.recording().settings.scalar == session.other().settings.scalar ? "" : " but for rounding";
+  const auto& p = session.parting();
+  if (!p) return "the same" + but + ", step by step";
+  std::string fields;
+  for (const std::string& f : p->fields) fields += (fields.empty() ? ": " : ", ") + f;
+  if (p->event >= std::max(session.count(), session.other().events.size())) return "the same" + but + ", step by step; the results differ" + fields;
+  return (session.step() < p->event ? "the same so far" + but + "; " : "") + "they part at step " + std::to_string(p->event) + fields;
 }
 
-bool undecided(const Result& r) {
-  if (r.status == "aborted") return true;
-  return r.status == gjk_status_names[static_cast<std::size_t>(GjkStatus::iteration_limit)] && (!r.lower_bound || !r.upper_bound || (*r.lower_bound < 0 && *r.upper_bound > 0));
+bool answers_agree(const Result& a, const Result& b) {
+  const auto near = [](const std::optional<double>& x, const std::optional<double>& y) { return x.has_value() == y.has_value() && (!x || std::abs(*x - *y) <= 1e-9); };
+  return !unanswered(a) && !unanswered(b) && a.intersecting == b.intersecting && near(a.signed_distance, b.signed_distance) && near(a.time, b.time) && near(a.energy, b.energy);
 }
 
 std::string result_text(const Recording& recording) {
   const Result& r = recording.result;
   if (recording.scene.scene.query == Query::simulate) return "time " + short_number(r.time.value_or(0)) + ", energy " + short_number(r.energy.value_or(0));
   if (recording.scene.scene.query == Query::cast) return r.intersecting ? r.status == "hit" ? "hit at " + short_number(*r.time) : "overlapping at first" : r.status == "miss" ? "miss" : r.status;
-  if (undecided(r)) return r.lower_bound && r.upper_bound ? "undecided, between " + short_number(*r.lower_bound) + " and " + short_number(*r.upper_bound) : "undecided";
+  if (unanswered(r)) return r.lower_bound && r.upper_bound ? "undecided, between " + short_number(*r.lower_bound) + " and " + short_number(*r.upper_bound) : "undecided";
   std::string text = r.intersecting ? "overlapping" : "apart";
   if (r.signed_distance) {
     const double d = *r.signed_distance;

@@ -1,0 +1,99 @@
+#include "debugger/view/step_notes.h"
+
+#include <algorithm>
+
+#include "debugger/view/explain.h"
+#include "debugger/view/right_step.h"
+
+namespace gjkdbg {
+
+const char* question(Query query) {
+  switch (query) {
+    case Query::intersect: return "Have the bodies a point in common? Yes or no is all that is asked.";
+    case Query::distance: return "How far apart are the bodies, and which points are nearest? Overlapping ones are 0 apart.";
+    case Query::penetration: return "How far apart are the bodies, or how deep in one another, along which normal, and touching where?";
+    case Query::contact: return "How far apart are the bodies, or how deep in one another, along which normal, and at which contact points do they touch?";
+    case Query::cast: return "When do the moving bodies touch for the first time, and where?";
+    case Query::simulate: return "Where do forces, contacts and impulses take the bodies?";
+  }
+  return "";
+}
+
+void scene_note(App& app) {
+  if (app.session.step() > 0) return;
+  const Scene& scene = app.session.scene().scene;
+  section(app.theme, "THE SCENE");
+  if (!scene.description.empty()) wrapped(scene.description, app.theme.palette.text_soft);
+  wrapped(question(scene.query), app.theme.palette.text);
+}
+
+void right_note(App& app) {
+  const std::string text = right_step(app.session.recording(), app.session.frame());
+  if (text.empty()) return;
+  section(app.theme, "A RIGHT IMPLEMENTATION, FROM HERE");
+  wrapped(text, app.theme.palette.support);
+}
+
+namespace {
+
+void message_tooltip(const Theme& theme, const std::string& message) {
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(theme.px(420));
+  ImGui::TextUnformatted(message.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+/// One that an earlier one explains does not call out.
+Colour colour_of(const Palette& p, const Finding& f) {
+  if (f.message.starts_with("Follows from step")) return p.text_soft;
+  return f.severity == Finding::Severity::error ? p.newest : p.frontier;
+}
+
+/// A finding's message, but for what the step's own sentence says already: a warning's.
+std::string what_is_new(const Recording& recording, const Finding& f) {
+  const auto* warning = std::get_if<recorded::Warning>(&recording.events[f.step]);
+  if (!warning || !f.message.ends_with(warning->message)) return f.message;
+  return f.message.substr(0, f.message.size() - warning->message.size());
+}
+
+}  // namespace
+
+/// A click goes to the step; at the step, the whole message of the first, and of the others when pointed at.
+void findings_note(App& app) {
+  Session& s = app.session;
+  const Theme& theme = app.theme;
+  if (s.findings().empty() && !foreign(s.recording())) return;
+  section(theme, "FINDINGS");
+  if (s.findings().empty()) wrapped("none: every step holds", theme.palette.support);
+  bool first = true;
+  for (std::size_t i = 0; i < s.findings().size(); ++i) {
+    const Finding& f = s.findings()[i];
+    const bool here = f.step == s.step(), whole = here && first;
+    ImGui::PushID(static_cast<int>(i));
+    ImGui::PushStyleColor(ImGuiCol_Text, vec(colour_of(theme.palette, f)));
+    const bool clicked = ImGui::Selectable(("step " + std::to_string(f.step) + "  " + f.code).c_str(), here);
+    ImGui::PopStyleColor();
+    ImGui::PopID();
+    if (ImGui::IsItemHovered() && !whole) message_tooltip(theme, f.message);
+    if (const std::string text = whole ? what_is_new(s.recording(), f) : ""; !text.empty()) wrapped(text, theme.palette.text_soft);
+    if (here) first = false;
+    if (clicked) s.go_to(f.step);
+  }
+}
+
+void beside_note(App& app) {
+  Session& s = app.session;
+  if (!s.comparing()) return;
+  const Theme& theme = app.theme;
+  section(theme, ("BESIDE IT: " + s.other_title()).c_str());
+  const std::size_t k = std::min(s.step(), s.other().events.size() - 1);
+  ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.body_b));
+  ImGui::TextWrapped("%s: %s", short_kind(s.other().events[k]), summary(s.other(), k).c_str());
+  ImGui::PopStyleColor();
+  wrapped(parting_text(s), theme.palette.text_soft);
+  if (answers_agree(s.recording().result, s.other().result)) wrapped("the answers agree", theme.palette.support);
+  number_row(theme, "its answer", result_text(s.other()), theme.palette.body_b);
+}
+
+}  // namespace gjkdbg
