@@ -146,9 +146,8 @@ class Caster {
     numbers_.next_run();
     supports_ += r.support_calls;
     Gap gap{*r.signed_distance, *r.normal, *r.witness_a, *r.witness_b};
-    gap.bound = gap.closing = closing(p, gap.normal);
+    gap.known = r.status != gjk_status_names[static_cast<std::size_t>(GjkStatus::iteration_limit)], gap.bound = gap.closing = closing(p, gap.normal);
     if (settings_.name != MethodName::root_finding) gap.bound = bound_from_here(p, two, gap);
-    gap.known = r.status != gjk_status_names[static_cast<std::size_t>(GjkStatus::iteration_limit)];
     if (trace_ && (gap.known || gap.distance <= target_)) (*trace_)(world::CastAdvanced{iterations_, start_ + time, {p.first, p.second}, gap.distance, gap.normal, gap.bound});
     return gap;
   }
