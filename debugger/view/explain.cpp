@@ -216,6 +216,7 @@ struct Explain : ExplainMotion {
   }
 
   Explanation operator()(const recorded::FaceChosen& e) const {
+    if (foreign(recording)) return {"The solver's nearest " + facet(), "It takes " + facet() + " " + std::to_string(e.face) + " for the nearest to the origin, and gives " + short_number(e.distance) + " for its distance, " + short_vector(e.normal) + " for its normal."};
     return {"Nearest " + facet() + " chosen", std::string(facet() == "edge" ? "Edge " : "Face ") + std::to_string(e.face) + " is nearest the origin, at " + short_number(e.distance) + ". The depth is at least that. Is there anything of A - B beyond it?"};
   }
 
