@@ -437,7 +437,7 @@ class Program(unittest.TestCase):
         for family in better["families"]:
             for cell in family["cells"]:
                 cell["verdict"] = "right"
-        result = run("atlas", "--quick", "-o", folder, "--gate", self.write("better.json", better))
+        result = run("atlas", "--quick", "--method", "johnson", "-o", folder, "--gate", self.write("better.json", better))
         self.assertEqual(result.returncode, 1)
         self.assertIn("worse than kept", result.stdout)
         self.refused(run("atlas", "--quick", "-o", folder, "--gate", self.scene), "/format")
