@@ -407,7 +407,8 @@ class Program(unittest.TestCase):
     def test_atlas_and_its_gate(self):
         folder = self.path / "atlas"
         kept = ROOT / "tests/kept/atlas.json"
-        result = run("atlas", "--quick", "-o", folder, "--gate", kept)
+        some = ("--method", "default", "--method", "mpr") if "GJKDBG_PAIRS" in os.environ else ()  # with sanitizers all take minutes
+        result = run("atlas", "--quick", *some, "-o", folder, "--gate", kept)
         self.assertEqual(result.returncode, 0, result.stdout)
         atlas = json.loads((folder / "atlas.json").read_text())
         for family in atlas["families"]:
@@ -422,9 +423,10 @@ class Program(unittest.TestCase):
                     self.assertIn(cell["method"], cell["why"])
                     self.assertEqual(len(cell["scene"]["bodies"]), 2)
         verdicts = {(f["name"], c["method"]): c["verdict"] for f in atlas["families"] for c in f["cells"]}
-        self.assertIn(verdicts["C3", "closed form"], ("right", "right-within-rounding"))
-        for moving in ("T1", "root finding"), ("T1", "ray cast"), ("T2", "signed volumes"), ("T2", "root finding"):
-            self.assertIn(verdicts[moving], ("right", "right-within-rounding"))
+        self.assertIn(verdicts["T2", "signed volumes"], ("right", "right-within-rounding"))
+        if not some:
+            for cell in ("C3", "closed form"), ("T1", "root finding"), ("T1", "ray cast"), ("T2", "root finding"):
+                self.assertIn(verdicts[cell], ("right", "right-within-rounding"))
         self.assertEqual(verdicts["K3", "MPR"], "wrong-value")  # as the literature has it: not the shortest way out, and its bounds admit it
         # One method alone.
         result = run("atlas", "--quick", "--method", "johnson", "-o", self.path / "one", "--gate", kept)
