@@ -49,6 +49,25 @@ ImVec2 plot_frame(const Theme& theme, float width, float height, const char* tit
   return at;
 }
 
+/// One entry of a plot's key, on the line of its title; where the next one begins.
+float key_entry(const Theme& theme, float x, float y, const char* name, Colour colour, bool dashed) {
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const float middle = y + theme.small->FontSize / 2, dash = theme.px(8);
+  draw->AddLine({x, middle}, {x + (dashed ? dash : 2.5f * dash), middle}, packed(colour), theme.px(1.6f));
+  if (dashed) draw->AddLine({x + 1.5f * dash, middle}, {x + 2.5f * dash, middle}, packed(colour), theme.px(1.6f));
+  draw->AddText(theme.small, theme.small->FontSize, {x + 3 * dash, y}, packed(colour), name);
+  return x + 3 * dash + theme.small->CalcTextSizeA(theme.small->FontSize, 1e9f, 0, name).x + theme.px(16);
+}
+
+/// A piece of a dashed line of which `drawn` pixels have been drawn before; how many it is with it.
+float dashed_piece(const Theme& theme, ImVec2 a, ImVec2 b, Colour colour, float drawn) {
+  const float length = std::hypot(b.x - a.x, b.y - a.y), dash = theme.px(8), period = 1.5f * dash;
+  const auto at = [&](float way) { return ImVec2{a.x + (b.x - a.x) * way / length, a.y + (b.y - a.y) * way / length}; };
+  for (float begin = -std::fmod(drawn, period); begin < length; begin += period)
+    if (length > 0 && begin + dash > 0) ImGui::GetWindowDrawList()->AddLine(at(std::max(begin, 0.f)), at(std::min(begin + dash, length)), packed(colour), theme.px(1.6f));
+  return drawn + length;
+}
+
 /// The length of the momentum, from 0 to its greatest.
 void momentum_curve(App& app, ImVec2 from, ImVec2 to, double first, double last) {
   double most = 0;
@@ -56,10 +75,11 @@ void momentum_curve(App& app, ImVec2 from, ImVec2 to, double first, double last)
     if (const auto* e = std::get_if<recorded::State>(&event)) most = std::max(most, e->momentum.norm());
   if (!(most > 0)) return;
   std::optional<ImVec2> before;
+  float drawn = 0;
   for (const Event& event : app.session.recording().events)
     if (const auto* e = std::get_if<recorded::State>(&event)) {
       const ImVec2 here{from.x + static_cast<float>((e->time - first) / std::max(last - first, 1e-300)) * (to.x - from.x), to.y - static_cast<float>(e->momentum.norm() / most) * (to.y - from.y)};
-      if (before) ImGui::GetWindowDrawList()->AddLine(*before, here, packed(app.theme.palette.body_b), app.theme.px(1.2f));
+      if (before) drawn = dashed_piece(app.theme, *before, here, app.theme.palette.text_soft, drawn);
       before = here;
     }
 }
@@ -74,6 +94,7 @@ void bounds_plot(App& app, float width, float height) {
   const Palette& p = theme.palette;
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const ImVec2 at = plot_frame(theme, width, height, "gap between the bounds, log scale");
+  if (s.comparing() && width > theme.px(310)) key_entry(theme, at.x + theme.px(232), at.y + theme.px(6), "beside", p.text_soft, false);
   const std::vector<Sample> samples = samples_of(s.recording()), others = s.comparing() ? samples_of(s.other()) : std::vector<Sample>();
   if (samples.empty() && others.empty()) {
     draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(12), at.y + theme.px(32)}, packed(p.text_faint), "This run tells no bounds.");
@@ -123,7 +144,7 @@ void bounds_plot(App& app, float width, float height) {
     }
     for (std::size_t i = 0; i < shown->size(); ++i) {
       const std::vector<Sample>& list = *shown;
-      const Colour colour = other ? p.body_b : list[i].phase == 0 ? p.simplex : p.chosen;
+      const Colour colour = other ? p.text_soft : list[i].phase == 0 ? p.simplex : p.chosen;
       const ImVec2 here{x_of(list[i].step), y_of(std::log10(list[i].gap))};
       if (i > 0 && list[i - 1].phase == list[i].phase) draw->AddLine({x_of(list[i - 1].step), y_of(std::log10(list[i - 1].gap))}, here, packed(colour), theme.px(other ? 1.2f : 2));
       if (other) draw->AddCircle(here, theme.px(3), packed(colour), 12, theme.px(1.2f));
@@ -142,7 +163,11 @@ void motion_plot(App& app, float width, float height) {
   const Palette& p = theme.palette;
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const bool cast = s.scene().scene.query == Query::cast;
-  const ImVec2 at = plot_frame(theme, width, height, cast ? "distance over time, each advance" : "energy over time, and momentum (its own scale)");
+  const ImVec2 at = plot_frame(theme, width, height, cast ? "distance over time, each advance" : "over time");
+  if (!cast) {
+    const float y = at.y + theme.px(6), momentum = key_entry(theme, at.x + theme.px(84), y, "energy", p.simplex, false);
+    key_entry(theme, momentum, y, width < theme.px(310) ? "momentum" : "momentum, from 0", p.text_soft, true);
+  }
   struct Point {
     double time, value;
     int series;

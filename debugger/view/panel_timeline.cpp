@@ -183,8 +183,8 @@ void scrubber(App& app) {
   }
   if (s.parting() && s.parting()->event < s.count()) {
     const float x = at.x + (static_cast<float>(s.parting()->event) + 0.5f) * cell;
-    draw->AddLine({x, at.y}, {x, at.y + size.y}, packed(p.body_b), theme.px(2));
-    draw->AddText(theme.small, theme.small->FontSize * 0.85f, {x + theme.px(4), at.y + theme.px(2)}, packed(p.body_b), "parts");
+    draw->AddLine({x, at.y}, {x, at.y + size.y}, packed(p.text_soft), theme.px(2));
+    draw->AddText(theme.small, theme.small->FontSize * 0.85f, {x + theme.px(4), at.y + theme.px(2)}, packed(p.text_soft), "parts");
   }
   for (const auto& [digit, step] : s.bookmarks) {
     const float x = at.x + (static_cast<float>(step) + 0.5f) * cell;

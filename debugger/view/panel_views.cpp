@@ -197,7 +197,7 @@ void one_view(App& app, const Area& area, const Shown& shown, bool interactive, 
   draw->AddRectFilledMultiColor({area.x, area.y + solid}, {area.x + area.width, area.y + faded}, cover, cover, clear, clear);
   const ImVec2 title{area.x + theme.px(14), area.y + theme.px(10)};
   const float room = area.x + area.width - theme.px(8) - title.x;
-  draw->AddText(theme.text, theme.text->FontSize, title, packed(shown.other ? theme.palette.body_b : theme.palette.text), shortened(theme.text, title_of(app, shown), room).c_str());
+  draw->AddText(theme.text, theme.text->FontSize, title, packed(shown.other ? theme.palette.text_soft : theme.palette.text), shortened(theme.text, title_of(app, shown), room).c_str());
   draw->AddText(theme.small, theme.small->FontSize, {title.x, title.y + theme.px(20)}, packed(theme.palette.text_faint), shortened(theme.small, subtitle_of(app, shown), room).c_str());
   if (interactive) interact(app, area, shown, camera, projection, items, pointed);
   ImGui::EndChild();

@@ -88,12 +88,12 @@ void beside_note(App& app) {
   const Theme& theme = app.theme;
   section(theme, ("BESIDE IT: " + s.other_title()).c_str());
   const std::size_t k = std::min(s.step(), s.other().events.size() - 1);
-  ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.body_b));
+  ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
   ImGui::TextWrapped("%s: %s", short_kind(s.other().events[k]), summary(s.other(), k).c_str());
   ImGui::PopStyleColor();
   wrapped(parting_text(s), theme.palette.text_soft);
   if (answers_agree(s.recording().result, s.other().result)) wrapped("the answers agree", theme.palette.support);
-  number_row(theme, "its answer", result_text(s.other()), theme.palette.body_b);
+  number_row(theme, "its answer", result_text(s.other()), theme.palette.text_soft);
 }
 
 }  // namespace gjkdbg
