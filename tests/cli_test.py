@@ -360,7 +360,6 @@ class Program(unittest.TestCase):
         self.refused(run("render", self.scene, "-o", ""), "--output")
         self.refused(run("view", "no-such.scene.json"), "no-such.scene.json")  # before a display is asked for
 
-    @unittest.skipIf(SANITIZED, "minutes with sanitizers, which a chart of chosen families meets too")
     def test_chart(self):
         folder = self.path / "chart"
         result = run("chart", "--quick", "-o", folder)

@@ -21,10 +21,10 @@ def load(path):
 
 
 def thinned(recording, of_a_kind=8):
-    """With the first events of each kind and set of members: the others are the same but for their numbers."""
+    """With the first events of each kind, set of members and words: the others are the same but for their numbers."""
     seen = {}
     def kept(event):
-        form = (event["kind"], *(key for key, value in event.items() if value is not None))
+        form = tuple((key, value if isinstance(value, str) else type(value)) for key, value in event.items())
         seen[form] = seen.get(form, 0) + 1
         return seen[form] <= of_a_kind
     return {**recording, "events": [event for event in recording["events"] if kept(event)]}

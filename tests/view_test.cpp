@@ -254,6 +254,17 @@ TEST_F(Window, StopsWhereAConditionHolds) {
   EXPECT_EQ(e->region.size(), 3u);
 }
 
+TEST_F(Window, ARunBesideIsToldByWhatDiffers) {
+  const std::string gallery = GJKDBG_GALLERY;
+  app.compare(gallery + "/box-box-apart.scene.json");
+  EXPECT_EQ(session.other_title(), "box-box-apart");
+  app.compare(gallery + "/box-box-deep.scene.json");  // the scene that is open
+  EXPECT_EQ(session.other_title(), "gjk · double");
+  app.compare(gallery + "/no-such.scene.json");
+  EXPECT_NE(app.message.find("no-such"), std::string::npos);
+  EXPECT_EQ(session.other_title(), "gjk · double");
+}
+
 TEST_F(Window, ComparesTwoMethodsInStep) {
   Method single;
   single.scalar = Scalar::float_precision;

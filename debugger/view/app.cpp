@@ -38,13 +38,17 @@ void App::open_gallery(const std::string& name) { open(gallery_.file(name)); }
 
 void App::compare(const std::filesystem::path& file) {
   try {
-    Session read;
-    read.open(file);
-    session.compare_with(read.recording(), read.title());
+    compare_or_throw(file);
     message.clear();
   } catch (const Error& e) {
     message = e.line();
   }
+}
+
+void App::compare_or_throw(const std::filesystem::path& file) {
+  Session read;
+  read.open(file);
+  session.compare_with(read.recording(), read.title() == session.title() ? method_text(read.recording()) : read.title());
 }
 
 void App::fit_views() {

@@ -47,8 +47,10 @@ class App {
   /// The same: a scene, a recording, a chart.json or an atlas.json; throws Error.
   void open_or_throw(const std::filesystem::path& file);
   void open_gallery(const std::string& name);
-  /// Another recording beside this one.
+  /// Another recording beside this one: told by its method where it is of the same scene.
   void compare(const std::filesystem::path& file);
+  /// The same; throws Error.
+  void compare_or_throw(const std::filesystem::path& file);
   const Gallery& gallery() const { return gallery_; }
   Thumbnails& thumbnails() { return thumbnails_; }
 

@@ -145,11 +145,7 @@ void run_window(const WindowOptions& options, Gallery gallery) {
   app.session.speed = app.preferences.speed;
   if (options.file.empty()) app.open_gallery(options.scene);
   else app.open_or_throw(options.file);
-  if (!options.beside.empty()) {
-    Session beside;
-    beside.open(options.beside);
-    app.session.compare_with(beside.recording(), beside.title());
-  }
+  if (!options.beside.empty()) app.compare_or_throw(options.beside);
   loop(window, app, options);
   if (options.remember) {
     app.preferences.speed = app.session.speed;
