@@ -7,13 +7,13 @@
 namespace gjkdbg {
 namespace {
 
-constexpr std::string_view gjk = "gjk", epa = "epa", mpr = "mpr", sat = "sat", projections = "projections", closed_form = "closed_form", moving = "cast";
+constexpr std::string_view gjk = "gjk", epa = "epa", mpr = "mpr", sat = "sat", projections = "projections", closed_form = "closed_form", motion = "cast";
 
 /// The phase an event takes place in; empty for those that stand for themselves.
 struct PhaseOf {
   bool in_sat;  ///< which projects points, too
   std::string_view operator()(const recorded::SupportQueried& e) const {
-    constexpr std::array names{gjk, epa, epa, mpr, sat, moving, projections};
+    constexpr std::array names{gjk, epa, epa, mpr, sat, motion, projections};
     return names[static_cast<std::size_t>(e.phase)];
   }
   std::string_view operator()(const recorded::VertexKept&) const { return gjk; }
@@ -26,7 +26,7 @@ struct PhaseOf {
   std::string_view operator()(const recorded::PointsProjected&) const { return in_sat ? sat : projections; }
   std::string_view operator()(const recorded::PointPredicted&) const { return projections; }
   std::string_view operator()(const recorded::LinesSolved&) const { return closed_form; }
-  std::string_view operator()(const recorded::CastAdvanced&) const { return moving; }
+  std::string_view operator()(const recorded::CastAdvanced&) const { return motion; }
   template <class E>
   std::string_view operator()(const E&) const {
     return {};
@@ -60,7 +60,7 @@ void TraceCheck::phases(const Event& event) {
     return;
   }
   any_ = true;
-  if (phase == moving) {
+  if (phase == motion) {
     if (ends && moved_) incomplete("The cast ends a second time.");
     else if (ends && !motion_open_) incomplete(std::string(kind) + " stands outside any cast: none has begun.");
     moved_ = moved_ || ends;

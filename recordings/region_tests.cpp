@@ -1,6 +1,6 @@
 #include "recordings/region_tests.h"
 
-#include <Eigen/Dense>
+#include <Eigen/QR>
 #include <algorithm>
 #include <bit>
 #include <cmath>

@@ -23,13 +23,13 @@ double middle_depth(const std::vector<Projected>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-struct Box {
+struct LabelBox {
   double x, y, w, h;
-  bool meets(const Box& o) const { return x < o.x + o.w && o.x < x + w && y < o.y + o.h && o.y < y + h; }
+  bool meets(const LabelBox& o) const { return x < o.x + o.w && o.x < x + w && y < o.y + o.h && o.y < y + h; }
 };
 
 /// How much of a segment lies in a box: its parameters between each pair of sides (Liang, Barsky 1984).
-double length_inside(const Box& box, const Projected& p, const Projected& q) {
+double length_inside(const LabelBox& box, const Projected& p, const Projected& q) {
   double from = 0, to = 1;
   const auto between = [&](double start, double step, double low, double high) {
     if (step == 0) return start > low && start < high;
@@ -46,15 +46,15 @@ class LabelPlaces {
  public:
   LabelPlaces(const std::vector<FlatItem>& drawn, const ViewRectangle& view, double scale) : drawn_(drawn), view_(view), scale_(scale) {}
 
-  Box take(const Projected& at, const PictureLabel& label) {
+  LabelBox take(const Projected& at, const PictureLabel& label) {
     const double w = (label.small ? 6.5 : 8.5) * static_cast<double>(label.text.size()), h = label.small ? 13 : 17, right = std::abs(label.dx), side = label.dy;
-    const auto centred = [&](double dx, double dy) { return Box{at.x + scale_ * dx, at.y + scale_ * (dy - h / 2), scale_ * w, scale_ * h}; };
-    const std::array<Box, 12> boxes{centred(label.dx, side), centred(-right - w, side), centred(right, -side), centred(-right - w, -side),
+    const auto centred = [&](double dx, double dy) { return LabelBox{at.x + scale_ * dx, at.y + scale_ * (dy - h / 2), scale_ * w, scale_ * h}; };
+    const std::array<LabelBox, 12> boxes{centred(label.dx, side), centred(-right - w, side), centred(right, -side), centred(-right - w, -side),
                                     centred(-w / 2, side - 14), centred(-w / 2, 14 - side), centred(right + 4, 0), centred(-right - 4 - w, 0),
                                     centred(right + 14, side - 20), centred(right + 14, 20 - side), centred(-right - 14 - w, side - 20), centred(-right - 14 - w, 20 - side)};
-    const Box* best = &boxes.front();
+    const LabelBox* best = &boxes.front();
     double least = std::numeric_limits<double>::infinity();
-    for (const Box& box : boxes)
+    for (const LabelBox& box : boxes)
       if (const double hidden = hides(box); hidden < least) least = hidden, best = &box;
     taken_.push_back(*best);
     return *best;
@@ -64,10 +64,10 @@ class LabelPlaces {
   static double weight(const FlatItem& line) { return line.width >= 2 ? 1 : 0.5 * line.colour.a / 255; }
 
   /// In pixels of a strong line: a weaker one counts half at most, a point as many as it is wide and some, a label or the border of the view far more.
-  double hides(const Box& box) const {
+  double hides(const LabelBox& box) const {
     double sum = 0;
     if (box.x < view_.x || box.x + box.w > view_.x + view_.width || box.y < view_.y || box.y + box.h > view_.y + view_.height) sum += 1000;
-    for (const Box& other : taken_) sum += box.meets(other) ? 200 : 0;
+    for (const LabelBox& other : taken_) sum += box.meets(other) ? 200 : 0;
     for (const FlatItem& item : drawn_) {
       const Projected& p = item.points.front();
       const double r = scale_ * item.width;
@@ -80,7 +80,7 @@ class LabelPlaces {
   const std::vector<FlatItem>& drawn_;
   const ViewRectangle& view_;
   const double scale_;
-  std::vector<Box> taken_;
+  std::vector<LabelBox> taken_;
 };
 
 FlatItem flat_point(const PicturePoint& point, const Projection& project) {
@@ -97,7 +97,7 @@ std::vector<FlatItem> placed_labels(const Picture& picture, const Projection& pr
   std::vector<FlatItem> out;
   for (const PictureLabel& label : picture.labels) {
     const Projected at = project(label.at);
-    const Box box = places.take(at, label);
+    const LabelBox box = places.take(at, label);
     FlatItem item;
     item.kind = FlatItem::Kind::label;
     item.points = {{box.x, box.y, at.depth}};
@@ -144,7 +144,7 @@ std::vector<FlatItem> flatten(const Picture& picture, const Projection& project,
 
 namespace {
 
-std::string number(double x) {
+std::string svg_number(double x) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2f", x);
   return text;
@@ -164,23 +164,23 @@ std::string escaped(const std::string& text) {
 
 std::string svg_line(const FlatItem& item) {
   const Projected &p = item.points[0], &q = item.points[1];
-  std::string out = "<line x1=\"" + number(p.x) + "\" y1=\"" + number(p.y) + "\" x2=\"" + number(q.x) + "\" y2=\"" + number(q.y) + "\" stroke-width=\"" +
-                    number(item.width) + "\" stroke-linecap=\"round\"" + paint("stroke", item.colour) +
+  std::string out = "<line x1=\"" + svg_number(p.x) + "\" y1=\"" + svg_number(p.y) + "\" x2=\"" + svg_number(q.x) + "\" y2=\"" + svg_number(q.y) + "\" stroke-width=\"" +
+                    svg_number(item.width) + "\" stroke-linecap=\"round\"" + paint("stroke", item.colour) +
                     (item.stroke == Stroke::dashed ? " stroke-dasharray=\"7 5\"" : "") + "/>\n";
   const double length = std::hypot(q.x - p.x, q.y - p.y);
   if (!item.arrow || length < 1) return out;
   const double ux = (q.x - p.x) / length, uy = (q.y - p.y) / length, h = 5 + 2 * item.width, w = h * 0.45;
-  out += "<polygon points=\"" + number(q.x + ux * 2) + "," + number(q.y + uy * 2) + " " + number(q.x - ux * h - uy * w) + "," + number(q.y - uy * h + ux * w) + " " +
-         number(q.x - ux * h + uy * w) + "," + number(q.y - uy * h - ux * w) + "\"" + paint("fill", item.colour) + "/>\n";
+  out += "<polygon points=\"" + svg_number(q.x + ux * 2) + "," + svg_number(q.y + uy * 2) + " " + svg_number(q.x - ux * h - uy * w) + "," + svg_number(q.y - uy * h + ux * w) + " " +
+         svg_number(q.x - ux * h + uy * w) + "," + svg_number(q.y - uy * h - ux * w) + "\"" + paint("fill", item.colour) + "/>\n";
   return out;
 }
 
 std::string svg_point(const FlatItem& item) {
-  const std::string x = number(item.points[0].x), y = number(item.points[0].y), r = number(item.width);
+  const std::string x = svg_number(item.points[0].x), y = svg_number(item.points[0].y), r = svg_number(item.width);
   if (item.mark == Mark::cross) {
     const auto arm = [&](double dx, double dy) {
-      return "<line x1=\"" + number(item.points[0].x - dx) + "\" y1=\"" + number(item.points[0].y - dy) + "\" x2=\"" + number(item.points[0].x + dx) + "\" y2=\"" +
-             number(item.points[0].y + dy) + "\" stroke-width=\"2\"" + paint("stroke", item.colour) + "/>\n";
+      return "<line x1=\"" + svg_number(item.points[0].x - dx) + "\" y1=\"" + svg_number(item.points[0].y - dy) + "\" x2=\"" + svg_number(item.points[0].x + dx) + "\" y2=\"" +
+             svg_number(item.points[0].y + dy) + "\" stroke-width=\"2\"" + paint("stroke", item.colour) + "/>\n";
     };
     return arm(item.width, 0) + arm(0, item.width);
   }
@@ -196,14 +196,14 @@ std::string to_svg(const std::vector<FlatItem>& items, double font_size) {
     switch (item.kind) {
       case FlatItem::Kind::polygon: {
         out += "<polygon points=\"";
-        for (const Projected& p : item.points) out += number(p.x) + "," + number(p.y) + " ";
+        for (const Projected& p : item.points) out += svg_number(p.x) + "," + svg_number(p.y) + " ";
         out += "\"" + paint("fill", item.colour) + "/>\n";
         break;
       }
       case FlatItem::Kind::line: out += svg_line(item); break;
       case FlatItem::Kind::point: out += svg_point(item); break;
       case FlatItem::Kind::label:
-        out += "<text x=\"" + number(item.points[0].x) + "\" y=\"" + number(item.points[0].y + font_size) + "\" font-size=\"" + number(item.small ? font_size * 0.75 : font_size) + "\"" +
+        out += "<text x=\"" + svg_number(item.points[0].x) + "\" y=\"" + svg_number(item.points[0].y + font_size) + "\" font-size=\"" + svg_number(item.small ? font_size * 0.75 : font_size) + "\"" +
                paint("fill", item.colour) + ">" + escaped(item.text) + "</text>\n";
         break;
     }

@@ -6,8 +6,6 @@
 namespace gjkdbg {
 namespace {
 
-ImVec2 at(const Projected& p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
-
 void draw_dashes(ImDrawList* draw, ImVec2 p, ImVec2 q, ImU32 colour, float width, float scale) {
   const float length = std::hypot(q.x - p.x, q.y - p.y), dash = 7 * scale, gap = 5 * scale;
   if (length < 1 || length > 20000) return;

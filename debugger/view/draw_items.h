@@ -6,6 +6,8 @@
 
 namespace gjkdbg {
 
+inline ImVec2 at(const Projected& p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
+
 /// `small_marks`: for thumbnails, points and lines at half their size and no labels.
 void draw_items(ImDrawList* draw, const std::vector<FlatItem>& items, const Theme& theme, bool small_marks = false);
 

@@ -10,8 +10,6 @@
 namespace gjkdbg {
 namespace {
 
-ImVec2 at(const Projected& p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
-
 /// A mouse that orbits, pans and zooms. True when it did something.
 void steer(Camera& camera, const Projection& projection) {
   const ImGuiIO& io = ImGui::GetIO();

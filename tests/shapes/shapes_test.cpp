@@ -3,7 +3,6 @@
 
 #include <unistd.h>
 
-#include <Eigen/QR>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -71,7 +70,7 @@ void expect_derivative(const Shape& shape, RandomScenes& random) {
     return v;
   };
   for (int i = 0; i < 50; ++i) {
-    const Matrix<D, double> axes = Eigen::HouseholderQR<Matrix<D, double>>(Matrix<D, double>::NullaryExpr([&] { return random.uniform(-1, 1); })).householderQ();
+    const Matrix<D, double> axes = random.rotation(D, Family::general);
     const Vector<D, double> d = vector(), change = vector();
     const auto support = [&](const Vector<D, double>& x) { return Vector<D, double>(axes * convex.support(axes.transpose() * x)); };
     SupportDerivative<D, double> derivative;

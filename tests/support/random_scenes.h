@@ -23,6 +23,7 @@ class RandomScenes {
  public:
   explicit RandomScenes(unsigned seed) : random_(seed) {}
 
+  AnyMatrix rotation(int dimension, Family family);
   /// A penetration scene of the dimension. `polytopes`: only shapes whose answer the exact oracle knows.
   Scene scene(int dimension, Family family, bool polytopes);
   double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
@@ -32,7 +33,6 @@ class RandomScenes {
   Shape shape(int dimension, Family family, bool polytopes, double size);
   AnyVector vector(int dimension, Family family, double size);
   double length(Family family, double size);
-  AnyMatrix rotation(int dimension, Family family);
   PointSet points(int dimension, Family family, double size, int count);
 
   std::mt19937_64 random_;
