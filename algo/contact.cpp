@@ -13,7 +13,7 @@ namespace {
 using Points = std::vector<AnyVector>;
 
 constexpr double alignment_limit = 1 - 1e-9;  ///< cosine: a face whose normal is this near the pair's can be the reference
-constexpr double parallel = 1e-9;             ///< sine: lines at more share a point only
+constexpr double parallel_sine = 1e-9;        ///< sine: lines at more share a point only
 constexpr double edge_on = 1e-6;              ///< sine: a face that is seen at less has no part of its own behind another
 
 /// The part of a polygon (or of a segment, two corners) on the inner side of a plane: outward . (x - on) <= 0.
@@ -140,7 +140,7 @@ std::optional<Points> line_across(const FlatFeature& feature, const AnyVector& n
   for (std::size_t i = 1; i < feature.points.size(); ++i)
     if (const Points edge{feature.points[i], feature.points[(i + 1) % feature.points.size()]}; height(edge) > height(best)) best = edge;
   const AnyVector along = best[1] - best[0];
-  if (!(std::abs(n.dot(along)) <= parallel * along.norm()) || along.isZero(0)) return std::nullopt;
+  if (!(std::abs(n.dot(along)) <= parallel_sine * along.norm()) || along.isZero(0)) return std::nullopt;
   return best;
 }
 
@@ -148,7 +148,7 @@ std::optional<Points> line_across(const FlatFeature& feature, const AnyVector& n
 Points line_beside_line(const std::optional<Points>& a, const std::optional<Points>& b) {
   if (!a || !b) return {};
   const Eigen::Vector3d u = (*a)[1] - (*a)[0], v = (*b)[1] - (*b)[0];
-  if (u.cross(v).norm() > parallel * u.norm() * v.norm()) return {};
+  if (u.cross(v).norm() > parallel_sine * u.norm() * v.norm()) return {};
   return clipped(clipped(*b, u, (*a)[1]), -u, (*a)[0]);
 }
 

@@ -9,7 +9,7 @@ namespace gjkdbg {
 namespace {
 
 // Steps by their kind; supports by who asks for them.
-constexpr std::string_view start = "the start", support = "support_queried of ", first_portal = "support_queried of a first portal";
+constexpr std::string_view start = "the start", a_support = "support_queried of ", first_portal = "support_queried of a first portal";
 
 struct Followers {
   std::string_view step;
@@ -74,7 +74,7 @@ OrderCheck::OrderCheck(CheckContext& context) : c_(context), before_(start) {}
 void OrderCheck::operator()(const Event& event) {
   if (foreign(c_.recording)) return;
   std::string step(kind_name(event));
-  if (const auto* e = std::get_if<recorded::SupportQueried>(&event)) step = e->phase == Phase::mpr && !portal_ ? std::string(first_portal) : std::string(support) + std::string(phase_names[static_cast<std::size_t>(e->phase)]);
+  if (const auto* e = std::get_if<recorded::SupportQueried>(&event)) step = e->phase == Phase::mpr && !portal_ ? std::string(first_portal) : std::string(a_support) + std::string(phase_names[static_cast<std::size_t>(e->phase)]);
   if (step == "mpr_began") portal_ = false;
   if (step == "portal_found") portal_ = true;
   if (step == "cast_began" || step == "cast_ended") casting_ = step == "cast_began";

@@ -270,8 +270,8 @@ struct Apply {
       body.pose.position = frame.places[i].position, body.pose.matrix = frame.places[i].rotation;
       const double reach = reach_of(body.shape, scene.dimension), close = 1e-9 * (reach + point.norm());
       if ((point - body.pose.position).norm() > reach + close) return false;
-      const WorldSupport farthest(body, scene.dimension);
-      return std::abs(along.dot(point - farthest(along, false))) <= close || std::abs(along.dot(point - farthest(along, true))) <= close;
+      const WorldSupport support(body, scene.dimension);
+      return std::abs(along.dot(point - support(along, false))) <= close || std::abs(along.dot(point - support(along, true))) <= close;
     };
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
       for (std::size_t j = i + 1; j < scene.bodies.size(); ++j)
