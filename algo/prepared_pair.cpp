@@ -15,12 +15,11 @@ class Prepared final : public PreparedPair {
         segment_a_(core_segment(a_)), segment_b_(core_segment(b_)) {}
 
   Result run(const Settings& settings, Query query) override {
-    thread_local Workspace<D, S> workspace;  // one a thread, not one a pair: it stays in the cache
     NoTrace trace;
     if (settings.name == MethodName::closed_form)
       return ClosedForm<D, S, NoTrace>(segment_a_.value(), segment_b_.value(), pose_a_, pose_b_, scale_, WorkingFrame<D, S>(pose_a_, scale_), trace).run(query);
     if (settings.start == Start::previous && warm_.size == 0) warm_ = warm_start<D, S>(settings.initial_simplex, a_, b_, scale_);
-    return PairSolver<D, S, NoTrace>(a_, b_, pose_a_, pose_b_, scale_, settings, workspace, trace, &features_a_, &features_b_, &warm_).run(query);
+    return PairSolver<D, S, NoTrace>(a_, b_, pose_a_, pose_b_, scale_, settings, trace, &features_a_, &features_b_, &warm_).run(query);
   }
   std::vector<SimplexPoint> simplex() const override { return simplex_points(warm_, a_, b_, scale_); }
   void place(const Pose& a, const Pose& b) override { pose_a_ = a, pose_b_ = b; }

@@ -47,12 +47,11 @@ Result solve_convex(const Body& a, const Body& b, const Query query, const Setti
     WorldTrace<D, S> trace(frame, numbers, *sink);
     return ClosedForm<D, S, WorldTrace<D, S>>(core_segment(core_a).value(), core_segment(core_b).value(), a.pose, b.pose, scale, frame, trace).run(query);
   }
-  thread_local Workspace<D, S> workspace;
   LateFeatures features_a(a.shape, D), features_b(b.shape, D);
   const WorkingFrame<D, S> frame(a.pose, core_a.reference(), scale);
   WorldTrace<D, S> trace(frame, numbers, *sink);
   WarmStart<D, S> warm = warm_start<D, S>(simplex ? *simplex : settings.initial_simplex, core_a, core_b, scale);
-  const Result result = PairSolver<D, S, WorldTrace<D, S>>(core_a, core_b, a.pose, b.pose, scale, settings, workspace, trace, &features_a, &features_b, &warm).run(query);
+  const Result result = PairSolver<D, S, WorldTrace<D, S>>(core_a, core_b, a.pose, b.pose, scale, settings, trace, &features_a, &features_b, &warm).run(query);
   if (simplex) *simplex = simplex_points(warm, core_a, core_b, scale);
   return result;
 }

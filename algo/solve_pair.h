@@ -26,11 +26,12 @@
 
 namespace gjkdbg {
 
-/// Storage for repeated queries of one dimension and scalar.
+/// EPA's storage: one a thread, not one a pair, so that it stays in the cache. Looked up where EPA runs, and only there.
 template <int D, class S>
-struct Workspace {
-  EpaWorkspace<D, S> epa;
-};
+EpaWorkspace<D, S>& epa_workspace() {
+  thread_local EpaWorkspace<D, S> workspace;
+  return workspace;
+}
 
 template <int D, class S, class Trace, class A = Convex<D, S>, class B = A>
 class PairSolver {
@@ -39,11 +40,10 @@ class PairSolver {
 
  public:
   /// The working frame's lengths are the world's times `scale`, as in the shapes. Keeps references.
-  PairSolver(const A& a, const B& b, const PlacedAxes<D>& pose_a, const PlacedAxes<D>& pose_b, double scale, const Settings& settings,
-             Workspace<D, S>& workspace, Trace& trace, LateFeatures* features_a = nullptr, LateFeatures* features_b = nullptr,
-             WarmStart<D, S>* warm = nullptr)
+  PairSolver(const A& a, const B& b, const PlacedAxes<D>& pose_a, const PlacedAxes<D>& pose_b, double scale, const Settings& settings, Trace& trace,
+             LateFeatures* features_a = nullptr, LateFeatures* features_b = nullptr, WarmStart<D, S>* warm = nullptr)
       : difference_(a, b, pose_a, pose_b, scale),
-        frame_(pose_a, a.reference(), scale), settings_(settings), workspace_(workspace), trace_(trace),
+        frame_(pose_a, a.reference(), scale), settings_(settings), trace_(trace),
         radius_(a.radius() + b.radius()), polytopes_(a.polytope() && b.polytope()),
         features_a_(features_a), features_b_(features_b), warm_(settings.start == Start::previous ? warm : nullptr) {}
 
@@ -159,7 +159,7 @@ class PairSolver {
     EpaOptions<S> options;
     options.tolerance = static_cast<S>(settings_.tolerance);
     options.max_iterations = settings_.max_iterations;
-    const EpaResult<D, S> found = epa(difference_, gjk_.simplex, options, workspace_.epa, trace_);
+    const EpaResult<D, S> found = epa(difference_, gjk_.simplex, options, epa_workspace<D, S>(), trace_);
     result_->status = epa_status_names[static_cast<std::size_t>(found.status)];
     result_->iterations += found.iterations;
     set_bounds(-found.upper_bound, -found.lower_bound);
@@ -376,7 +376,6 @@ class PairSolver {
   Difference difference_;
   WorkingFrame<D, S> frame_;
   const Settings& settings_;
-  Workspace<D, S>& workspace_;
   Trace& trace_;
   const double radius_;
   const bool polytopes_;

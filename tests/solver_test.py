@@ -18,6 +18,9 @@ KIT = ROOT / "debugger/solver/kits/gjk.py"
 PROGRAM = os.path.abspath(sys.argv.pop(1))
 SOURCE = KIT.read_text()
 
+os.environ.setdefault("ASAN_OPTIONS", "detect_leaks=0")  # looked for in cli_test: each of these many runs would take twice as long
+
+
 def check_file(recording):
     with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
         json.dump(recording, file)

@@ -28,17 +28,17 @@ struct Pair {
 };
 
 template <class Trace>
-double once(Pair& p, Workspace<3, double>& workspace, Trace& trace) {
-  return *PairSolver<3, double, Trace>(p.a, p.b, p.scene.bodies[0].pose, p.scene.bodies[1].pose, 1, p.settings, workspace, trace).run(Query::penetration).signed_distance;
+double once(Pair& p, Trace& trace) {
+  return *PairSolver<3, double, Trace>(p.a, p.b, p.scene.bodies[0].pose, p.scene.bodies[1].pose, 1, p.settings, trace).run(Query::penetration).signed_distance;
 }
 
 }  // namespace
 
-__attribute__((noinline)) double measured(std::vector<Pair>& pairs, Workspace<3, double>& workspace, int rounds) {
+__attribute__((noinline)) double measured(std::vector<Pair>& pairs, int rounds) {
   NoTrace trace;
   double sum = 0;
   for (int i = 0; i < rounds; ++i)
-    for (Pair& p : pairs) sum += once(p, workspace, trace);
+    for (Pair& p : pairs) sum += once(p, trace);
   return sum;
 }
 
@@ -51,8 +51,7 @@ int main(int argc, char** argv) {
   RandomScenes random(5);
   std::vector<Pair> pairs;
   for (int k = 0; k < 60; ++k) pairs.emplace_back(random.scene(3, static_cast<Family>(k % family_count), k % 2 == 0));
-  Workspace<3, double> workspace;
-  if (std::strcmp(argv[1], "count") == 0) return measured(pairs, workspace, rounds) == 0.125;
+  if (std::strcmp(argv[1], "count") == 0) return measured(pairs, rounds) == 0.125;
 #ifdef TIMED
   Counting sink;
   double best_on = 1e300, best_off = 1e300;
@@ -64,10 +63,10 @@ int main(int argc, char** argv) {
         TraceNumbers numbers;
         const WorkingFrame<3, double> frame(p.scene.bodies[0].pose, p.a.reference(), 1);
         WorldTrace<3, double> trace(frame, numbers, sink);
-        (void)once(p, workspace, trace);
+        (void)once(p, trace);
       }
     const auto middle = std::chrono::steady_clock::now();
-    (void)measured(pairs, workspace, rounds);
+    (void)measured(pairs, rounds);
     best_on = std::min(best_on, std::chrono::duration<double, std::nano>(middle - begin).count());
     best_off = std::min(best_off, std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - middle).count());
   }
