@@ -6,6 +6,7 @@
 
 namespace gjkdbg {
 
+/// Pixels, as ImGui takes them.
 inline ImVec2 at(const Projected& p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
 
 /// `small_marks`: for thumbnails, points and lines at half their size and no labels.
