@@ -213,12 +213,14 @@ class EpaCheck {
   void check_removed(const recorded::PolytopeGrown& e, const std::map<int, Face>& before);
   void check_kept(int newest);
   bool check_closed();
-  void check_convex(std::optional<int> newest);
+  void check_convex(const std::vector<recorded::Face>& added, std::optional<int> newest);
   void check_origin();
-  AnyVector centre();
+  std::vector<std::pair<int, const AnyVector*>> used() const;
+  AnyVector centre() const;
 
   CheckContext& c_;
   std::map<int, Face> faces_;
+  std::vector<int> vertices_;                ///< of these, in order, when they were last compared with one another
   std::map<int, std::vector<int>> corners_;  ///< of these, and of those removed
   std::optional<int> chosen_;
   AnyVector chosen_normal_;  ///< as recorded; empty after the query along it

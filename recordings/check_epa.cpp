@@ -26,15 +26,24 @@ std::string EpaCheck::name(int number) const {
   return known != corners_.end() ? out + " " + list_of(known->second) : out;
 }
 
+/// The vertices in use whose places are known, each once, in order.
+std::vector<std::pair<int, const AnyVector*>> EpaCheck::used() const {
+  std::vector<int> numbers;
+  for (const auto& [number, face] : faces_) numbers.insert(numbers.end(), face.vertices.begin(), face.vertices.end());
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  std::vector<std::pair<int, const AnyVector*>> out;
+  for (const int v : numbers)
+    if (const auto found = c_.vertices.find(v); found != c_.vertices.end()) out.emplace_back(v, &found->second);
+  return out;
+}
+
 /// A point inside: the mean of the vertices in use.
-AnyVector EpaCheck::centre() {
-  std::set<int> used;
-  for (const auto& [number, face] : faces_) used.insert(face.vertices.begin(), face.vertices.end());
+AnyVector EpaCheck::centre() const {
+  const auto vertices = used();
   AnyVector sum = AnyVector::Zero(c_.dimension);
-  int count = 0;
-  for (const int v : used)
-    if (const auto found = c_.vertices.find(v); found != c_.vertices.end()) sum += found->second, ++count;
-  return count > 0 ? AnyVector(sum / count) : sum;
+  for (const auto& [number, w] : vertices) sum += *w;
+  return vertices.empty() ? sum : AnyVector(sum / static_cast<double>(vertices.size()));
 }
 
 /// Whether the plane a face claims holds its vertices and has the whole polytope on one side.
@@ -154,7 +163,8 @@ void EpaCheck::operator()(const recorded::PolytopeSeeded& e) {
   for (const auto& f : e.faces) add(f);
   orient(e.faces);
   check_closed();
-  check_convex(std::nullopt);
+  vertices_.clear();
+  check_convex(e.faces, std::nullopt);
   check_origin();
 }
 
@@ -169,7 +179,7 @@ void EpaCheck::operator()(const recorded::PolytopeGrown& e) {
   orient(e.added);
   check_kept(e.vertex);
   if (check_closed()) check_removed(e, before);  // a face that is lost leaves a hole
-  check_convex(e.vertex);
+  check_convex(e.added, e.vertex);
   check_origin();
 }
 
@@ -229,17 +239,22 @@ void EpaCheck::check_kept(int newest) {
   }
 }
 
-/// No vertex may lie beyond a face; of the newest one `check_kept` has told.
-void EpaCheck::check_convex(std::optional<int> newest) {
-  std::set<int> used;
-  for (const auto& [number, face] : faces_) used.insert(face.vertices.begin(), face.vertices.end());
+/// No vertex may lie beyond a face; of the newest one `check_kept` has told. What was there before has been compared: the faces added are compared with
+/// every vertex, the others only with vertices the polytope had not.
+void EpaCheck::check_convex(const std::vector<recorded::Face>& added, std::optional<int> newest) {
+  std::vector<std::pair<int, const AnyVector*>> all = used(), others;
+  std::set<int> fresh;
+  for (const auto& f : added) fresh.insert(f.face);
+  for (const auto& [v, w] : all)
+    if (v != newest && !std::binary_search(vertices_.begin(), vertices_.end(), v)) others.emplace_back(v, w);
+  vertices_.clear();
+  for (const auto& [v, w] : all) vertices_.push_back(v);
+  if (newest) all.erase(std::remove_if(all.begin(), all.end(), [&](const auto& vertex) { return vertex.first == *newest; }), all.end());
   const double limit = std::max(1e-6 * c_.size, c_.tolerance);
   for (const auto& [number, face] : faces_) {
     if (!face.usable) continue;
-    for (const int v : used) {
-      const auto found = c_.vertices.find(v);
-      if (found == c_.vertices.end() || newest == v) continue;
-      const double beyond = face.normal.dot(found->second) - face.distance;
+    for (const auto& [v, w] : fresh.count(number) > 0 ? all : others) {
+      const double beyond = face.normal.dot(*w) - face.distance;
       if (beyond <= limit + face.uncertain) continue;
       c_.find("non-convex-polytope", "Vertex " + std::to_string(v) + " lies " + text_of(beyond) + " beyond " + name(number) + ": the polytope is not convex. The usual cause is splitting only the nearest face instead of removing every face the new vertex sees, or removing others as well.");
       return;

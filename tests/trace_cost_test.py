@@ -37,11 +37,15 @@ def without_trace(text):
     return text, deleted
 
 
-def compiled(compiler, libraries, tree, folder, name, *more):
-    """Only the driver is compiled: all that is measured is templates in headers."""
-    program = folder / name
-    flags = ["-std=c++20", "-O2", "-DNDEBUG", "-ffp-contract=off", "-w", f"-I{tree}", f"-I{ROOT}", "-isystem", "/usr/include/eigen3", *more]
-    subprocess.run([compiler, *flags, str(ROOT / "tests/trace_cost/driver.cpp"), *libraries, "-lqhull_r", "-ltinyobjloader", "-lgmpxx", "-lgmp", "-o", str(program)], check=True)
+def compiled(compiler, tree, source, output):
+    """One file, against the core in `tree`: all that is measured is templates in headers."""
+    subprocess.run([compiler, "-std=c++20", "-O2", "-DNDEBUG", "-ffp-contract=off", "-w", f"-I{tree}", f"-I{ROOT}", "-isystem", "/usr/include/eigen3", "-c",
+                    str(ROOT / "tests/trace_cost" / source), "-o", str(output)], check=True)
+    return output
+
+
+def linked(compiler, libraries, objects, program):
+    subprocess.run([compiler, *objects, *libraries, "-lqhull_r", "-ltinyobjloader", "-lgmpxx", "-lgmp", "-o", str(program)], check=True)
     return program
 
 
@@ -66,11 +70,13 @@ def main():
                 deleted += count
         if deleted < 20:
             sys.exit(f"only {deleted} trace lines were found to delete: the test no longer knows them")
-        as_it_is, bare = (compiled(compiler, libraries, tree, folder, program) for tree, program in ((ROOT, "as_it_is"), (folder, "bare")))
+        driver = compiled(compiler, ROOT, "driver.cpp", folder / "driver.o")
+        as_it_is, bare = (linked(compiler, libraries, [driver, compiled(compiler, tree, "untraced.cpp", folder / f"{name}.o")], folder / name)
+                          for tree, name in ((ROOT, "as_it_is"), (folder, "bare")))
         with_lines, without = instructions(as_it_is, folder), instructions(bare, folder)
         if without < 1_000_000:
             sys.exit(f"only {without} instructions were counted")
-        nanoseconds = subprocess.run([compiled(compiler, libraries, ROOT, folder, "timed", "-DTIMED"), "time", "100"], capture_output=True, text=True, check=True).stdout.strip()
+        nanoseconds = subprocess.run([as_it_is, "time", "100"], capture_output=True, text=True, check=True).stdout.strip()
         print(f"tracing off: {with_lines} instructions, {without} with {deleted} trace lines deleted: {100 * (with_lines / without - 1):+.2f} %")
         print(f"tracing on: {nanoseconds} ns an event")
         if abs(with_lines / without - 1) > 0.01:

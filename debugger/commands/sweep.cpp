@@ -1,4 +1,4 @@
-// sweep: the gallery and random scenes through another implementation; what fails, and how, and the simplest scene that fails alike.
+// sweep: the gallery and random scenes, or scenes of one's own, through another implementation; what fails, and how, and the simplest scene that fails alike.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -6,11 +6,15 @@
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <random>
 #include <set>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "algo/solve.h"
 #include "debugger/commands/commands.h"
@@ -102,17 +106,19 @@ class ErrorOutput {
 
 struct Sweep {
   std::string command, output;
-  int random = 100, dimension = 0;
+  std::vector<std::string> scenes;  ///< files or gallery names; none: all of the gallery
+  std::optional<int> random;
+  int dimension = 0;
   unsigned seed = 1;
   SolverLimits limits;
 
   int run() {
     ErrorOutput errors;
     limits.errors = errors.descriptor();
-    int passed = 0, failed = 0;
+    int passed = 0, failed = 0, not_asked = 0;
     std::map<std::string, int> codes;
     const auto one = [&](const SceneFile& scene) {
-      if (!suits(scene)) return;
+      if (!suits(scene)) return void(++not_asked);
       const auto code = failure(scene);
       code ? ++failed : ++passed;
       if (!code) return void(errors.take());
@@ -124,35 +130,57 @@ struct Sweep {
       errors.take();
       errors.show(said);
     };
-    const Gallery gallery = read_gallery(gallery_directory());
-    for (const Lesson& lesson : gallery.lessons)
-      for (const std::string& name : lesson.scenes)
-        if (const SceneFile scene = read_scene(gallery.file(name)); !scene.scene.motion) one(scene);
+    for (const SceneFile& scene : chosen()) one(scene);
     RandomPairs pairs(seed, dimension);
-    for (int i = 0; i < random; ++i) one(pairs.next(i));
+    for (int i = 0; i < random.value_or(scenes.empty() ? 100 : 0); ++i) one(pairs.next(i));
     std::cout << "\n" << passed << " scenes clean, " << failed << " not\n";
+    if (!scenes.empty() && not_asked > 0) std::cout << not_asked << " not asked: a program is not asked of bodies that move and of meshes" << (dimension > 0 ? ", nor here of other dimensions" : "") << "\n";
     for (const auto& [code, count] : codes) std::cout << "  " << std::setw(30) << code << " " << count << "\n";
     return failed > 0 ? exit_difference : exit_done;
   }
 
  private:
+  /// Read before the first is asked of: a file that is wrong is told at once.
+  std::vector<SceneFile> chosen() const {
+    std::vector<SceneFile> read;
+    for (const std::string& scene : scenes) {
+      const std::string file = scene_path(scene).string();
+      read.push_back(read_scene(file));
+      try {
+        if (suits(read.back())) settings_of(read.back());
+      } catch (const Error& e) {
+        throw e.in(file);
+      }
+    }
+    if (!scenes.empty()) return read;
+    const Gallery gallery = read_gallery(gallery_directory());
+    for (const Lesson& lesson : gallery.lessons)
+      for (const std::string& name : lesson.scenes) read.push_back(read_scene(gallery.file(name)));
+    return read;
+  }
+
   bool suits(const SceneFile& scene) const {
-    if (dimension > 0 && scene.scene.dimension != dimension) return false;
+    if (scene.scene.motion || (dimension > 0 && scene.scene.dimension != dimension)) return false;
     for (const Body& body : scene.scene.bodies)
       if (std::holds_alternative<Mesh>(body.shape.geometry)) return false;
     return true;
   }
 
+  static Settings settings_of(const SceneFile& scene) {
+    Method method = scene.method;
+    method.name = MethodName::gjk;
+    return resolve_settings(method, scene.scene);
+  }
+
   /// The code of the first finding, if any.
-  std::optional<std::string> failure(SceneFile scene) const {
-    scene.method.name = MethodName::gjk;
-    const auto findings = check(run_solver(scene, resolve_settings(scene.method, scene.scene), command, limits));
+  std::optional<std::string> failure(const SceneFile& scene) const {
+    const auto findings = check(run_solver(scene, settings_of(scene), command, limits));
     if (findings.empty()) return std::nullopt;
     return findings.front().code;
   }
 
   /// Writes the failing scene, shrunk: as long as the first finding stays the same, corners go and numbers lose digits.
-  std::string save(SceneFile scene, const std::string& code) const {
+  std::string save(SceneFile scene, const std::string& code) {
     scene.expect.reset();
     for (int tries = 60; tries > 0;) {
       bool smaller = false;
@@ -171,7 +199,8 @@ struct Sweep {
       if (!smaller) break;
     }
     make_folder(output);
-    const std::string file = (std::filesystem::path(output) / (scene.scene.name + ".scene.json")).string();
+    const int same = ++saved_[scene.scene.name];  // scenes of different folders may have one name
+    const std::string file = (std::filesystem::path(output) / (scene.scene.name + (same > 1 ? "-" + std::to_string(same) : "") + ".scene.json")).string();
     write_output(file, pretty_json(scene_to_json(scene)) + "\n");
     return file;
   }
@@ -200,15 +229,18 @@ struct Sweep {
     }
     return out;
   }
+
+  std::map<std::string, int> saved_;
 };
 
 }  // namespace
 
 void add_sweep(CLI::App& app, Status& status) {
   auto options = std::make_shared<Sweep>();
-  CLI::App* command = app.add_subcommand("sweep", "The gallery and random scenes through your own GJK");
+  CLI::App* command = app.add_subcommand("sweep", "The gallery and random scenes, or your own scenes, through your own GJK");
+  command->add_option("scenes", options->scenes, "scene files or gallery names, and no others (the gallery)")->check(named());
   command->add_option("--exec", options->command, "the program, as a shell would start it")->required()->check(named());
-  command->add_option("--random", options->random, "how many random scenes (100)")->check(between(0, 1000000));
+  command->add_option("--random", options->random, "how many random scenes (100; with scenes named: none)")->check(between(0, 1000000));
   command->add_option("--dimension", options->dimension, "only scenes of this dimension")->check(between(1, 3));
   command->add_option("--seed", options->seed, "of the random scenes (1)")->check(between(0, 4294967295.0));
   command->add_option("-o,--output", options->output, "folder for the scenes that fail, shrunk")->check(named());
