@@ -18,7 +18,11 @@ double median(std::vector<double> values) {
 
 using Pairs = std::vector<std::unique_ptr<PreparedPair>>;
 
-std::unique_ptr<PreparedPair> prepared(const Scene& scene, Scalar scalar) { return prepare(scene.bodies[0], scene.bodies[1], scene.dimension, scalar); }
+Pairs prepared(const std::vector<Scene>& scenes, Scalar scalar) {
+  Pairs pairs;
+  for (const Scene& scene : scenes) pairs.push_back(prepare(scene.bodies[0], scene.bodies[1], scene.dimension, scalar));
+  return pairs;
+}
 
 /// Nanoseconds a query: the median of several rounds of `ask(i)` over all pairs, after one to warm up.
 template <class Ask>
@@ -139,12 +143,11 @@ std::vector<Reference> meant(const std::vector<PriceRow>& rows, const PriceRow& 
 PricePoint price_of(const std::vector<PriceRow>& rows, const PriceRow& row, int rounds) {
   PricePoint point{row.what, 0, 0, 0, row.query == Query::penetration};
   const std::vector<Reference> truth = meant(rows, row);
-  Pairs pairs;
+  const Pairs pairs = prepared(row.scenes, Scalar::double_precision);
   std::vector<Settings> settings;
   for (std::size_t i = 0; i < row.scenes.size(); ++i) {
-    pairs.push_back(prepared(row.scenes[i], Scalar::double_precision));
     settings.push_back(resolve_settings({}, row.scenes[i]));
-    const Result r = pairs.back()->run(settings.back(), row.query);
+    const Result r = pairs[i]->run(settings.back(), row.query);
     point.supports += static_cast<double>(r.support_calls) / static_cast<double>(row.scenes.size());
     if (r.signed_distance && row.query == Query::penetration) point.worst_error = std::max(point.worst_error, truth[i].error(*r.signed_distance, scene_size(row.scenes[i])));
   }
@@ -154,9 +157,7 @@ PricePoint price_of(const std::vector<PriceRow>& rows, const PriceRow& row, int 
 
 /// The points of one method on one family, tolerance by tolerance.
 void measure_family(const ChartFamily& family, const std::vector<Reference>& references, const Variant& variant, const std::vector<double>& tolerances, int rounds, std::vector<ChartPoint>& out) {
-  Pairs pairs;
-  if (!variant.peer)
-    for (const Scene& scene : family.scenes) pairs.push_back(prepared(scene, *variant.method.scalar));
+  const Pairs pairs = variant.peer ? Pairs() : prepared(family.scenes, *variant.method.scalar);
   const bool single = !variant.peer && variant.method.scalar == Scalar::float_precision;
   for (const double tolerance : tolerances) {
     if (single && tolerance < 1e-7) continue;
@@ -178,17 +179,15 @@ Method ladder_method(int way, double distance) {
   return method;
 }
 
-LadderPoint ladder_point(const std::string& shapes, const std::vector<Scene>& scenes, double distance, int way, int rounds) {
+LadderPoint ladder_point(const std::string& shapes, const std::vector<Scene>& scenes, const Pairs& pairs, double distance, int way, int rounds) {
   static constexpr const char* names[] = {"plain", "Nesterov", "Polyak", "Newton"};
   LadderPoint point;
   point.shapes = shapes, point.method = names[way], point.distance = distance;
   double sum = 0, squares = 0;
-  Pairs pairs;
   std::vector<Settings> settings;
-  for (const Scene& scene : scenes) {
-    pairs.push_back(prepared(scene, Scalar::double_precision));
-    settings.push_back(resolve_settings(ladder_method(way, distance), scene));
-    const double k = pairs.back()->run(settings.back(), Query::penetration).iterations;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    settings.push_back(resolve_settings(ladder_method(way, distance), scenes[i]));
+    const double k = pairs[i]->run(settings[i], Query::penetration).iterations;
     sum += k, squares += k * k;
   }
   const double n = static_cast<double>(scenes.size());
@@ -207,16 +206,18 @@ std::vector<LadderPoint> ladder(bool quick, int rounds) {
   std::vector<LadderPoint> out;
   for (const Rung& rung : rungs) {
     const std::vector<Scene> scenes = ladder_ellipsoids(quick ? 60 : 400, rung.distance);
+    const Pairs pairs = prepared(scenes, Scalar::double_precision);
     for (int way = 0; way < 4; ++way) {
-      out.push_back(ladder_point("ellipsoids", scenes, rung.distance, way, rounds));
+      out.push_back(ladder_point("ellipsoids", scenes, pairs, rung.distance, way, rounds));
       if (way < 2) out.back().published = way == 0 ? rung.plain : rung.nesterov;
     }
   }
   for (const Hulls& hull : hulls)
     for (const double distance : {0.001, 1.0}) {
       const std::vector<Scene> scenes = hull_pairs(quick ? 5 : 20, hull.vertices, distance);
+      const Pairs pairs = prepared(scenes, Scalar::double_precision);
       for (int way = 0; way < 4; ++way) {
-        out.push_back(ladder_point("hulls of " + std::to_string(hull.vertices), scenes, distance, way, rounds));
+        out.push_back(ladder_point("hulls of " + std::to_string(hull.vertices), scenes, pairs, distance, way, rounds));
         out.back().vertices = hull.vertices;
         if (way < 2 && distance < 0.1) out.back().published_nanoseconds = way == 0 ? hull.plain : hull.nesterov;
       }

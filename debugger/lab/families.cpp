@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "algo/prepared_pair.h"
 #include "debugger/lab/measure.h"
 #include "shapes/error.h"
 
@@ -72,10 +73,13 @@ class Maker {
       scene.bodies.push_back(body);
     }
     const AnyVector line = direction(dimension);
+    const auto pair = prepare(scene.bodies[0], scene.bodies[1], dimension, Scalar::double_precision);
+    const Settings exact = resolve_settings(reference_method(), scene);
     double far = 3;
     for (int i = 0; i < 6; ++i) {
       scene.bodies[1].pose.position = far * line;
-      far += gap - reference(scene).signed_distance;
+      pair->place(scene.bodies[0].pose, scene.bodies[1].pose);
+      far += gap - *pair->run(exact, Query::penetration).signed_distance;
       if (far < 0) far = 0.05;
     }
     scene.bodies[1].pose.position = far * line;

@@ -78,13 +78,17 @@ double Reference::error(double value, double size) const {
   return std::max({0.0, lower - value, value - upper}) / std::max(size, std::abs(signed_distance));
 }
 
-Reference reference(const Scene& scene) {
+Method reference_method() {
   Method method;
   method.tolerance = 1e-15;
   method.max_iterations = 2000;
+  return method;
+}
+
+Reference reference(const Scene& scene) {
   Scene copy = scene;
   copy.query = Query::penetration;
-  const Result r = solve(copy, resolve_settings(method, copy));
+  const Result r = solve(copy, resolve_settings(reference_method(), copy));
   return {*r.signed_distance, *r.lower_bound, *r.upper_bound};
 }
 

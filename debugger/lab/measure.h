@@ -35,5 +35,7 @@ struct Reference {
   double error(double value, double size) const;
 };
 Reference reference(const Scene& scene);
+/// What it is found by.
+Method reference_method();
 
 }  // namespace gjkdbg
