@@ -81,6 +81,7 @@ class Epa {
     lower_ = face.distance;
     const bool better = (height < best_height_) | (result_.face < 0);
     const S reach_a = face.normal.dot(point.a);
+    if (better && !difference_.polytope()) best_ = point;
     best_height_ = better ? height : best_height_;
     reach_a_ = better ? reach_a : reach_a_;
     result_.face = better ? number : result_.face;
@@ -289,6 +290,10 @@ class Epa {
     const V& n = result_.normal;
     result_.point_a += n * (reach_a_ - n.dot(result_.point_a));
     result_.point_b += n * (reach_a_ - best_height_ - n.dot(result_.point_b));
+    // Where the origin's projection lies beside the face, they are off across the normal too; so are the points of the support. What is off by less is
+    // nearer to where the boundary's tangent plane touches, and the support's points lie on their bodies.
+    const auto off = [&](const V& a, const V& b) { return V(a - b - n * best_height_).norm(); };
+    if (off(best_.a, best_.b) < off(result_.point_a, result_.point_b)) result_.point_a = best_.a, result_.point_b = best_.b;
   }
 
   /// How far from the origin a point of A - B lies: the plane of a face alone would be nearer, where the origin is beside the face.
@@ -364,6 +369,7 @@ class Epa {
   const S floor_;
   EpaResult<D, S> result_;
   S best_height_ = std::numeric_limits<S>::infinity();
+  Point best_;     ///< of round bodies: the support of that height
   S reach_a_ = 0;  ///< of A along the direction of the best height: B's share is the rest
   S lower_ = 0;
   V flat_normal_ = V::Zero();

@@ -40,7 +40,7 @@ struct MprResult {
   S depth = 0;                                 ///< of the bodies along `normal`; negative when separated
   S lower_bound = 0, upper_bound = 0;          ///< of the bodies' depth, valid unless separated
   Vector<D, S> point_a = Vector<D, S>::Zero(), point_b = Vector<D, S>::Zero();  ///< where the ray leaves the portal
-  bool decided = true;                         ///< false: no portal was found, and no plane that separates
+  bool decided = true;                         ///< false: no plane that separates, and no portal with the origin on its inner side
   bool overlapping() const { return status != MprStatus::separated; }  ///< if decided
 };
 
@@ -158,7 +158,7 @@ class Mpr {
 
   /// Neither inside nor outside was proven: the depth cannot be told from zero.
   MprStatus give_up() {
-    lower_ = 0;
+    lower_ = 0, unproven_ = true;
     return result_.iterations >= options_.max_iterations ? MprStatus::iteration_limit : MprStatus::stalled;
   }
 
@@ -252,7 +252,7 @@ class Mpr {
 
   MprResult<D, S> finish(MprStatus status) {
     result_.status = status;
-    result_.decided = status != MprStatus::flat && (status != MprStatus::iteration_limit || portal_size_ == D);
+    result_.decided = status != MprStatus::flat && !unproven_ && (status != MprStatus::iteration_limit || portal_size_ == D);
     result_.depth = upper_ == 0 ? S(0) : upper_;
     result_.lower_bound = std::max(S(0), lower_) - 2 * floor_;  // what is taken for the inner side may be beyond by a floor
     result_.upper_bound = upper_ + floor_;
@@ -287,6 +287,7 @@ class Mpr {
   V v0_;
   std::array<Point, D> portal_{};
   int portal_size_ = 1;
+  bool unproven_ = false;  ///< whether the origin is inside
   MprStatus status_ = MprStatus::separated;
   MprResult<D, S> result_;
   S leaves_ = 0;

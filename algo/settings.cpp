@@ -29,6 +29,9 @@ double default_tolerance(const Scene& scene, const Settings& s) {
 
 [[noreturn]] void refuse(const std::string& message, const char* where) { throw Error("unsupported-method", message, where); }
 
+/// By its name in quotes; by its place where it has none.
+std::string named(const Scene& scene, const Body& body) { return body.name.empty() ? "body " + std::to_string(&body - scene.bodies.data()) : "body \"" + body.name + "\""; }
+
 bool has_corners(const Shape& shape) {
   if (const Sum* sum = std::get_if<Sum>(&shape.geometry)) return has_corners(*sum->first) && has_corners(*sum->second);
   return !curved(shape);
@@ -38,9 +41,9 @@ bool has_corners(const Shape& shape) {
 void check_polytopes(const Scene& scene) {
   for (const Body& body : scene.bodies) {
     if (!has_corners(body.shape))
-      refuse("method \"sat\" needs polytopes with or without a radius; body \"" + body.name + "\" is a " + type_name(body.shape, scene.dimension), "/method/name");
+      refuse("method \"sat\" needs polytopes with or without a radius; " + named(scene, body) + " is a " + type_name(body.shape, scene.dimension), "/method/name");
     if (std::holds_alternative<Sum>(body.shape.geometry) && !corners_of(body.shape, scene.dimension))
-      refuse("method \"sat\" takes sums of at most " + std::to_string(largest_sum) + " pairs of corners; body \"" + body.name + "\" has more", "/method/name");
+      refuse("method \"sat\" takes sums of at most " + std::to_string(largest_sum) + " pairs of corners; " + named(scene, body) + " has more", "/method/name");
   }
 }
 
@@ -53,7 +56,7 @@ bool segment(const Body& body, int dimension) {
 void check_segments(const Scene& scene) {
   for (const Body& body : scene.bodies) {
     if (!segment(body, scene.dimension))
-      refuse("method \"closed-form\" needs spheres, capsules, points or segments; body \"" + body.name + "\" is a " + type_name(body.shape, scene.dimension), "/method/name");
+      refuse("method \"closed-form\" needs spheres, capsules, points or segments; " + named(scene, body) + " is a " + type_name(body.shape, scene.dimension), "/method/name");
   }
 }
 
@@ -66,7 +69,7 @@ bool has_projection(const Body& body) {
 void check_projections(const Scene& scene) {
   for (const Body& body : scene.bodies)
     if (!has_projection(body))
-      refuse("method \"projections\" needs spheres, capsules, boxes, cylinders, cones or ellipsoids; body \"" + body.name + "\" is a " + type_name(body.shape, scene.dimension), "/method/name");
+      refuse("method \"projections\" needs spheres, capsules, boxes, cylinders, cones or ellipsoids; " + named(scene, body) + " is a " + type_name(body.shape, scene.dimension), "/method/name");
 }
 
 /// Polygons in the plane, boxes among them, so small that their edges are looked along sooner than GJK is done: eight corners each take 0.55 of GJK's time,
@@ -110,7 +113,7 @@ void check_motion(const Settings& s, const Scene& scene) {
   if (!all) throw Error("missing-motion", "the query \"" + std::string(query_names[static_cast<std::size_t>(scene.query)]) + "\" needs bodies that know how they move", "/query");
   for (const Body& body : scene.bodies) {
     const bool turns = body.motion && body.motion->angular_velocity.size() > 0 && !body.motion->angular_velocity.isZero(0);
-    if (s.name == MethodName::ray_cast && turns) refuse("method \"ray-cast\" takes bodies that do not turn; body \"" + body.name + "\" does", "/method/name");
+    if (s.name == MethodName::ray_cast && turns) refuse("method \"ray-cast\" takes bodies that do not turn; " + named(scene, body) + " does", "/method/name");
     if (std::holds_alternative<Mesh>(body.shape.geometry) && scene.query == Query::simulate && body.motion && !body.motion->is_static)
       throw Error("unsupported-method", "a mesh must be static, and this one moves", "/bodies/" + std::to_string(&body - scene.bodies.data()) + "/static");
   }

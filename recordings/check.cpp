@@ -30,6 +30,8 @@ std::string text_of(double x) {
   return text;
 }
 
+std::string bound_text(double x) { return std::isfinite(x) ? text_of(x) : "(not known)"; }
+
 std::string text_of(const AnyVector& v) {
   std::string out = "(";
   for (Eigen::Index i = 0; i < v.size(); ++i) out += (i > 0 ? ", " : "") + text_of(v[i]);
@@ -135,13 +137,24 @@ void CheckContext::find(const char* code, const std::string& message, Finding::S
 }
 
 void CheckContext::suspect(const char* code, const std::string& message) {
-  if (!suspicion_) suspicion_ = Finding{step, Finding::Severity::error, code, message};
+  last_suspicion_ = Finding{step, Finding::Severity::error, code, message};
+  if (!suspicion_) suspicion_ = last_suspicion_;
+}
+
+/// The step that reduced a simplex last.
+std::optional<std::size_t> CheckContext::last_simplex() const {
+  for (std::size_t i = recording.events.size(); i-- > 0;)
+    if (std::holds_alternative<recorded::SimplexReduced>(recording.events[i])) return i;
+  return std::nullopt;
 }
 
 /// Of one step: what says most exactly what went wrong before what only shows it.
 void CheckContext::put_causes_first() {
-  static constexpr std::pair<std::string_view, std::string_view> pairs[] = {{"unjustified-separation", "stopped-early"}, {"visible-face-kept", "wrong-horizon"}, {"open-polytope", "wrong-horizon"}};
+  static constexpr std::pair<std::string_view, std::string_view> pairs[] = {
+      {"unjustified-separation", "stopped-early"}, {"visible-face-kept", "wrong-horizon"}, {"open-polytope", "wrong-horizon"}, {"wrong-face", "not-closest-face"}};
   for (const auto& [cause, shown] : pairs) {
+    if (cause == pairs[0].first && recording.result.signed_distance && *reference().signed_distance > 0) continue;  // apart they are: the distance is not yet one
+    if (cause == pairs[3].first && !inferred) continue;  // by number; a solver's faces are known by their vertices
     const auto of = [&](std::string_view code) { return std::find_if(findings_.begin(), findings_.end(), [&](const Finding& f) { return f.code == code; }); };
     const auto first = of(shown), second = of(cause);
     if (first != findings_.end() && second != findings_.end() && first < second && first->step == second->step) std::rotate(first, second, second + 1);
@@ -155,9 +168,11 @@ std::vector<Finding> CheckContext::take() {
   auto root = std::find_if(findings_.begin(), findings_.end(), is_error);
   if (root == findings_.end()) return std::move(findings_);
   static const std::set<std::string_view> consequences{"wrong-witness", "wrong-normal",  "wrong-distance",  "wrong-depth", "wrong-answer", "stopped-early", "origin-not-enclosed", "unjustified-separation",
-                                                       "cycle",         "no-progress",   "support-limit",   "timeout",     "crash",        "direction-away-from-origin"};
-  if (suspicion_ && suspicion_->step < root->step && consequences.contains(root->code) && !seen_.contains(suspicion_->code)) {
-    findings_.insert(root, *suspicion_);
+                                                       "cycle",         "no-progress",   "support-limit",   "timeout",     "crash"};
+  const bool of_the_last = root->code == std::string_view("origin-not-enclosed") || root->code == std::string_view("wrong-answer");
+  const std::optional<Finding> cause = !of_the_last || (last_suspicion_ && last_suspicion_->step == last_simplex()) ? (of_the_last ? last_suspicion_ : suspicion_) : std::nullopt;
+  if (cause && cause->step < root->step && consequences.contains(root->code) && !seen_.contains(cause->code)) {
+    findings_.insert(root, *cause);
     std::stable_sort(findings_.begin(), findings_.end(), [](const Finding& x, const Finding& y) { return x.step < y.step; });
     root = std::find_if(findings_.begin(), findings_.end(), is_error);
   }

@@ -21,6 +21,8 @@ struct NearestPoint {
 NearestPoint nearest_point(const std::vector<AnyVector>& points);
 
 std::string text_of(double x);
+/// A bound; one that is not known says so.
+std::string bound_text(double x);
 std::string text_of(const AnyVector& v);
 std::string list_of(const std::vector<int>& numbers);
 bool contains(const std::vector<int>& list, int x);
@@ -62,8 +64,11 @@ class CheckContext {
   double answer_tolerance();
 
   void find(const char* code, const std::string& message, Finding::Severity severity = Finding::Severity::error);
-  /// What is harmless by itself, but the likely cause where an answer is wrong later on. The first counts.
+  /// What is harmless by itself, but the likely cause where an answer is wrong later on. The first counts; where the claim of an overlap is wrong, only one of
+  /// the simplex that it is made of.
   void suspect(const char* code, const std::string& message);
+  /// Whether there is a finding of this code so far.
+  bool found(const char* code) const { return seen_.contains(code); }
   std::vector<Finding> take();
 
   /// The position of a vertex; a finding, and nothing, when it was never handed out.
@@ -71,6 +76,7 @@ class CheckContext {
   bool check_direction(const AnyVector& d);
 
  private:
+  std::optional<std::size_t> last_simplex() const;
   void put_causes_first();
 
   std::optional<WorldSupport> a_, b_;
@@ -80,7 +86,7 @@ class CheckContext {
   std::optional<Result> reference_;
   std::vector<Finding> findings_;
   std::set<std::string> seen_;
-  std::optional<Finding> suspicion_;
+  std::optional<Finding> suspicion_, last_suspicion_;
 };
 
 /// How far a point lies outside a body, surely.

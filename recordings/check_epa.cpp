@@ -103,7 +103,7 @@ void EpaCheck::orient(const std::vector<recorded::Face>& added) {
 /// False when it points inwards.
 bool EpaCheck::check_normal(int number, const AnyVector& given) {
   const AnyVector& right = faces_[number].normal;
-  const bool inwards = right.dot(given) < -0.9 * given.norm();
+  const bool inwards = right.dot(given) < -0.999 * given.norm();  // else it is another face's, and `check_plane` tells
   if (inwards)
     c_.find("flipped-face-normal", "The normal " + text_of(given) + " of " + name(number) + " points into the polytope; expected is " + text_of(right) +
                                        ". The usual cause is a winding that was not kept: turn the normal so that it looks away from a point inside.");
@@ -291,7 +291,10 @@ void EpaCheck::operator()(const recorded::SupportQueried& e) {
   const AnyVector d = e.direction.stableNormalized(), across = n.stableNormalized();
   if (d.dot(across) < -0.999)
     c_.find("direction-away-from-origin", "The direction " + text_of(e.direction) + " leads from the face chosen back into the polytope: expected is the face's normal " + text_of(n) + ", away from the origin. The usual cause is a minus sign that belongs to GJK's direction.");
-  else if (!c_.inferred && (d - across).norm() > 1e-4)
+  else if (c_.inferred && (d - across).norm() > 1e-4)
+    c_.suspect("direction-not-perpendicular", "The direction " + text_of(e.direction) + " is not the normal of the face chosen, " + text_of(n) + ": how far A - B reaches along another says nothing of that face. Ask along its normal. The usual cause is the normal of the "
+                                                  "round before, or the way to the middle of the face in its place.");
+  else if ((d - across).norm() > 1e-4)
     c_.find("direction-not-perpendicular", "The direction " + text_of(e.direction) + " is not the normal of the face chosen, " + text_of(n) + ".", Finding::Severity::warning);
 }
 

@@ -147,7 +147,7 @@ void GjkCheck::check_region(const recorded::SimplexReduced& e) {
   const NearestPoint best = nearest_point(all);
   const AnyVector v = nearest_point(kept).v;
   if (v.norm() <= best.v.norm() + c_.tolerance) return check_no_more_kept(e.region, kept);
-  if (heuristic_region(before, e.region, v)) return;
+  if (e.closest.size() == 0 && heuristic_region(before, e.region, v)) return;  // who gives the nearest point says that no part is nearer
   std::vector<int> right;
   for (const int i : best.subset) right.push_back(before[static_cast<std::size_t>(i)]);
   c_.find("wrong-region", "Of " + list_of(before) + " the part " + list_of(e.region) + " was kept, whose nearest point is " + text_of(v.norm()) + " from the origin. The part " + list_of(right) + " comes as near as " +

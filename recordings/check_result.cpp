@@ -54,21 +54,21 @@ struct Judge {
   std::string distance_hint(double given, double sd) const {
     const auto is = [&](double x) { return std::abs(given - x) <= limit + 1e-6 * std::abs(x); };
     if (is(-sd)) return " That is the right length with its sign turned: apart is above zero, a depth below.";
-    if (is(sd * sd) || is(-sd * sd)) return " That is its square: a root has not been taken.";
+    if (given != 0 && (is(sd * sd) || is(-sd * sd))) return " That is its square: a root has not been taken.";
     if (c.radius > 0 && is(sd + c.radius)) return " That is the cores' distance: the radii around them, " + text_of(c.radius) + " together, have not been taken off.";
     return "";
   }
 
   /// The result's own bounds hold its distance, and the right one.
   void bounds() const {
-    if (!r.lower_bound || !r.upper_bound) return;
-    const double lower = *r.lower_bound, upper = *r.upper_bound;
+    if (!r.lower_bound && !r.upper_bound) return;
+    const double lower = r.lower_bound.value_or(-INFINITY), upper = r.upper_bound.value_or(INFINITY);
     const bool off = r.signed_distance && (*r.signed_distance < lower - c.tolerance || *r.signed_distance > upper + c.tolerance);
     const bool only_distance = c.recording.scene.scene.query == Query::distance;
     if (lower > upper + c.tolerance || off)
-      c.find("wrong-bounds", "The bounds " + text_of(lower) + " and " + text_of(upper) + " do not enclose signed_distance" + (r.signed_distance ? ", " + text_of(*r.signed_distance) : "") + ".");
+      c.find("wrong-bounds", "The bounds " + bound_text(lower) + " and " + bound_text(upper) + " do not enclose signed_distance" + (r.signed_distance ? ", " + text_of(*r.signed_distance) : "") + ".");
     else if (lower > (only_distance ? std::max(0.0, *right.upper_bound) : *right.upper_bound) + limit || upper < *right.lower_bound - limit)
-      c.find("wrong-bounds", "The bounds " + text_of(lower) + " and " + text_of(upper) + " leave out the right distance, " + text_of(*right.signed_distance) + ".");
+      c.find("wrong-bounds", "The bounds " + bound_text(lower) + " and " + bound_text(upper) + " leave out the right distance, " + text_of(*right.signed_distance) + ".");
   }
 
   /// Whether GJK came to its limit: which way the nearest point lies is then as little known as how far. (EPA and MPR have a direction for what they say.)
@@ -117,7 +117,9 @@ struct Judge {
                                            : "The usual cause is weights that belong to other vertices, or to the wrong face."));
       return;
     }
-    if (!r.witness_a || !r.witness_b || !measured() || (scene.query == Query::distance && r.intersecting)) return;
+    if (c.found("wrong-distance") || c.found("wrong-depth") || c.found("flipped-normal") || c.found("wrong-normal")) return;  // the points may well be right
+    if (!r.witness_a || !r.witness_b) return alone(r.witness_a ? 0 : 1, r.witness_a ? r.witness_a : r.witness_b);
+    if (!measured() || (scene.query == Query::distance && r.intersecting)) return length(AnyVector(*r.witness_b - *r.witness_a));
     if (belong_together(*r.witness_a, *r.witness_b)) return;
     if (belong_together(*r.witness_b, *r.witness_a))  // of bodies that overlap each may lie on either
       c.find("wrong-witness", "witness_b - witness_a is " + text_of(AnyVector(*r.witness_b - *r.witness_a)) + ", but signed_distance * normal is " + text_of(AnyVector(*r.signed_distance * *r.normal)) + ", which is witness_a - witness_b: they are swapped.");
@@ -125,9 +127,26 @@ struct Judge {
       c.find("wrong-witness", "witness_b - witness_a is " + text_of(AnyVector(*r.witness_b - *r.witness_a)) + ", but signed_distance * normal is " + text_of(AnyVector(*r.signed_distance * *r.normal)) + ": the points and the distance do not belong together. The usual cause is weights of another part than the nearest: of a simplex that was not reduced to it, or of a face whose plane is the nearest while the point lies on a neighbour in the same plane.");
   }
 
+  /// A witness without the other: as far from the other body as the bodies are apart.
+  void alone(std::size_t body, const std::optional<AnyVector>& point) const {
+    if (!point || limited || *right.signed_distance <= limit) return;
+    const double far = outside(c.recording.scene.scene, 1 - body, *point);
+    if (far <= *right.signed_distance + 10 * c.answer_tolerance()) return;
+    c.find("wrong-witness", std::string("witness_") + (body == 0 ? "a " : "b ") + text_of(*point) + " is " + text_of(far) + " from the other body, but the bodies are " + text_of(*right.signed_distance) + " apart: it is not the nearest point of its own.");
+  }
+
+  /// Witnesses without a normal, or of an overlap of which only the distance is asked, are as far from each other as is said.
+  void length(const AnyVector& between) const {
+    if (limited || unanswered(r)) return;
+    const bool common = c.recording.scene.scene.query == Query::distance && r.intersecting;
+    const double said = std::abs(r.signed_distance.value_or(common ? 0 : *right.signed_distance)), off = std::abs(between.norm() - said);
+    if (off <= 10 * c.answer_tolerance() || (common && std::abs(between.norm() - std::abs(*right.signed_distance)) <= 10 * c.answer_tolerance())) return;
+    c.find("wrong-witness", "The witness points are " + text_of(between.norm()) + " from each other, " + (common && said == 0 ? "but the bodies overlap: where only the distance is asked for, they are one point of both." : "but the bodies are " + text_of(said) + (*right.signed_distance > 0 ? " apart." : " deep.")));
+  }
+
   /// Points of the bodies as far behind one another as is said, and no farther than the bodies are deep.
   void contacts() const {
-    if (!r.contacts || !r.normal) return;
+    if (!r.contacts) return;
     const Scene& scene = c.recording.scene.scene;
     const double slack = 1e-4 * c.size + 10 * limit;  // the face that is clipped lies across the normal to 4e-5
     if (r.contacts->empty() == r.intersecting && std::abs(*right.signed_distance) > limit)
@@ -135,7 +154,7 @@ struct Judge {
     for (std::size_t i = 0; i < r.contacts->size(); ++i) {
       const ContactPoint& p = (*r.contacts)[i];
       const std::string name = "Contact point " + std::to_string(i) + ", " + text_of(p.point_a) + " and " + text_of(p.point_b) + ", " + text_of(p.depth) + " deep, ";
-      const double off = (p.point_b - p.point_a + p.depth * *r.normal).norm();
+      const double off = r.normal ? (p.point_b - p.point_a + p.depth * *r.normal).norm() : std::abs((p.point_b - p.point_a).norm() - std::abs(p.depth));
       const double out = std::max(outside(scene, 0, p.point_a), outside(scene, 1, p.point_b));
       if (off > slack) c.find("wrong-contact", name + "is off by " + text_of(off) + ": point_b - point_a is -depth * normal.");
       else if (out > slack) c.find("wrong-contact", name + "lies " + text_of(out) + " outside one of the bodies.");

@@ -72,6 +72,8 @@ void TraceCheck::phases(const Event& event) {
   const bool expands = phase == epa && expandable_;
   if (!begins && open_ != phase && !expands)
     incomplete(std::string(kind) + " stands outside any run of " + std::string(phase) + (ends && last_ended_ == phase ? ": the last one has ended already." : ": none has begun."));
+  const auto* expanded = std::get_if<recorded::EpaEnded>(&event);
+  if (expanded && open_ != phase && expands && expanded->status == EpaStatus::converged) incomplete("EPA ends, converged, but no step of it stands before: there is no polytope.");
   if (open_ != phase) begun_ = c_.step;
   open_ = ends ? std::string_view() : phase;
   if (!ends) return;
@@ -144,7 +146,7 @@ void TraceCheck::bounds(double lower, double upper) {
   const double limit = c_.answer_tolerance();
   const bool depth_asked = c_.recording.scene.scene.query > Query::distance;
   if (lower > (depth_asked ? *right.upper_bound : std::max(0.0, *right.upper_bound)) + limit || upper < *right.lower_bound - limit)
-    c_.find("wrong-bounds", "The bounds " + text_of(lower) + " and " + text_of(upper) + " of the signed distance leave the right one out, " + text_of(*right.signed_distance) + ".");
+    c_.find("wrong-bounds", "The bounds " + bound_text(lower) + " and " + bound_text(upper) + " of the signed distance leave the right one out, " + text_of(*right.signed_distance) + ".");
 }
 
 /// Along a unit normal the bodies are as far apart, or as little deep, as is said.

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "algo/motion.h"
+#include "recordings/frame_vertices.h"
 #include "shapes/world_support.h"
 
 namespace gjkdbg {
@@ -68,6 +69,10 @@ struct Apply {
     if (step > 0 && std::holds_alternative<recorded::SupportQueried>(recording.events[step - 1]) && !frame.simplex.empty()) frame.simplex.erase(frame.simplex.begin());
     bounds(e.lower_bound, e.upper_bound);
     frame.stage = Frame::Stage::done;
+    if (const auto* last = last_reduced(); last && last->region == frame.simplex) {  // what was kept is the answer: its weights make the witnesses
+      frame.barycentric = last->barycentric;
+      if (last->closest.size() > 0) frame.closest = last->closest;
+    }
   }
 
   void operator()(const recorded::PolytopeSeeded& e) {
@@ -205,8 +210,10 @@ struct Apply {
     frame.stage = Frame::Stage::done;
   }
   void operator()(const recorded::CastEnded& e) {
-    frame.iteration = e.iteration;
+    const auto before = frame.time;
     advance_to(e.time);
+    if (frame.time != before) run_is_over();  // the last run was about the bodies where they were then
+    frame.iteration = e.iteration;
     if (e.pair.size() == 2) frame.pair = {e.pair[0], e.pair[1]};
     frame.stage = Frame::Stage::done;
   }
@@ -231,6 +238,13 @@ struct Apply {
       frame.places.push_back({b.position, rotation, b.velocity, b.angular_velocity});
     }
     frame.time = e.time;
+  }
+
+  /// Of this run of GJK; null where it has none.
+  const recorded::SimplexReduced* last_reduced() const {
+    for (std::size_t i = step; i-- > 0 && !std::holds_alternative<recorded::GjkBegan>(recording.events[i]);)
+      if (const auto* reduced = std::get_if<recorded::SimplexReduced>(&recording.events[i])) return reduced;
+    return nullptr;
   }
 
   void fresh() {
@@ -338,33 +352,6 @@ void apply(Frame& frame, const Recording& recording, std::size_t step) {
   std::visit(Apply{frame, step, recording}, recording.events[step]);
   const auto* cut = std::get_if<recorded::SimplexReduced>(&recording.events[step]);
   frame.lettered = cut ? cut->before : frame.simplex;
-}
-
-std::map<int, std::vector<std::size_t>> index_vertices(const Recording& recording) {
-  std::map<int, std::vector<std::size_t>> index;
-  for (std::size_t i = 0; i < recording.events.size(); ++i)
-    if (const auto e = given_vertex(recording.events[i])) index[e->vertex].push_back(i);
-  return index;
-}
-
-/// Fills in the vertices the frame refers to. One that nobody asked for before this step is left out.
-void fill_vertices(Frame& frame, const Recording& recording, const std::map<int, std::vector<std::size_t>>& index) {
-  frame.vertices.clear();
-  const auto need = [&](int vertex) {
-    const auto found = index.find(vertex);
-    if (found == index.end()) return;
-    const auto after = std::upper_bound(found->second.begin(), found->second.end(), frame.step);
-    if (after == found->second.begin()) return;
-    const GivenVertex given = *given_vertex(recording.events[*(after - 1)]);
-    frame.vertices[vertex] = {vertex, *(after - 1), given.a, given.b, given.w};
-  };
-  if (frame.newest) need(*frame.newest);
-  for (const auto* list : {&frame.simplex, &frame.dropped, &frame.seeds, &frame.portal})
-    for (const int v : *list) need(v);
-  for (const auto& [number, face] : frame.faces)
-    for (const int v : face.vertices) need(v);
-  for (const FrameFace& face : frame.removed)
-    for (const int v : face.vertices) need(v);
 }
 
 }  // namespace

@@ -221,6 +221,7 @@ class SceneReader {
 
   ObjMesh obj(const Json& json, const Place& at, std::string& name) {
     name = read_string(json, at);
+    if (name.find('\0') != std::string::npos) reject(at, "bad-value", "must not hold a NUL");  // a file's name would end there
     try {
       return read_obj(directory_ / name);
     } catch (const Error& e) {

@@ -157,7 +157,7 @@ class Program(unittest.TestCase):
         self.refused(run("dump", self.write("bad.json", "\xff\x00")), "bad.json")
         self.refused(run("dump", self.scene, "--tolerance", "-1"), "--tolerance")
         self.refused(run("dump", self.scene, "--scalar", "half"), "--scalar")
-        self.refused(run("dump", self.scene, "--name", "gjk-boolean"), "--name")
+        self.refused(run("dump", self.scene, "--name", "gjk-boolean"), "--method")
         self.refused(run("dump"), "SCENE")
         self.refused(run("frobnicate"), '"frobnicate" is no command', "--help")
         self.refused(run("dupm", self.scene), "did you mean", "dump")

@@ -132,8 +132,8 @@ Settings MethodFlags::resolve(const SceneFile& scene, const std::string& source)
                          (setting == "tolerance" && tolerance_) || (setting == "max_iterations" && max_iterations_) ||
                          (setting == "initial_direction" && !initial_direction_.empty()) || (setting == "start" && start_);
     if (!start_from_.empty() && setting.starts_with("initial_simplex")) throw Error(e.code(), "the simplex of " + start_from_ + " does not fit the scene: a vertex " + e.message(), "--start-from");
-    if (by_flag) throw Error(e.code(), e.message(), "--" + setting);
-    throw Error(e.code(), e.message(), (source.empty() ? "" : source + ": ") + e.where());
+    const std::string file = source.empty() ? "" : source + ": ";
+    throw Error(e.code(), e.message(), file + (by_flag ? "--" + (setting == "name" ? "method" : setting) : e.where()));
   }
 }
 

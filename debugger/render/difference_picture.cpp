@@ -102,7 +102,7 @@ class DifferencePainter : public Painter {
     const ViewPoint tip = to_view(*frame_.normal) * std::max(0.0, *frame_.depth - meshes_.radius);
     if (!(tip.norm() > 1e-6 * unit())) return;
     picture_.lines.push_back({ViewPoint::Zero(), tip, palette_.text, 3, Stroke::solid, true, true});  // not the chosen face's colour, before which it lies
-    label(tip / 2, "depth", palette_.text);
+    label(tip / 2, meshes_.radius > 0 ? "depth of the cores" : "depth", palette_.text);
   }
 
   /// "face 3", as the step's sentence calls it, in the face's middle.

@@ -3,27 +3,36 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 
 namespace gjkdbg {
+
+/// 1, 2 or 5 times a power of ten, and at least this many pixels.
+double Painter::round_step(double pixels) const {
+  const double least = pixels / projection_.pixels_per_length(), power = std::pow(10, std::floor(std::log10(least)));
+  for (const double times : {1.0, 2.0, 5.0})
+    if (times * power >= least) return times * power;
+  return 10 * power;
+}
 
 /// Lines at round distances: in the plane of a 2D scene, or on the floor y = 0's level of a 3D one.
 void Painter::grid() {
   if (!settings_.grid) return;
-  const double step = std::pow(10, std::floor(std::log10(unit() * 0.8)));
+  const double step = round_step(44);
   const ViewPoint centre = (projection_.target() / step).array().round() * step;
   const Colour colour = palette_.grid;
   if (meshes_.dimension == 1) {
     const double reach = 40 * step, x = centre[0];
     picture_.line({x - reach, 0, 0}, {x + reach, 0, 0}, palette_.dropped, 1.5);
     for (int i = -40; i <= 40; ++i) picture_.line({x + i * step, -0.03 * unit(), 0}, {x + i * step, 0.03 * unit(), 0}, palette_.dropped, 1.2);
-    for (int i = -9; i <= 9; ++i) mark_number({x + i * step, -0.03 * unit(), 0}, x + i * step, -4, 8);
+    for (int i = -40; i <= 40; ++i) mark_number({x + i * step, -0.03 * unit(), 0}, x + i * step, -4, 8);
     return;
   }
   if (flat()) {
     // Numbers along the axes, or along the edge of the view when they are out of it.
     const double left = projection_.target()[0] - 0.95 * unit(), low = projection_.target()[1] - 0.95 * unit();
     const bool x_axis_seen = std::abs(projection_.target()[1]) < unit(), y_axis_seen = std::abs(projection_.target()[0]) < unit();
-    for (int i = -9; i <= 9; ++i) {
+    for (int i = -40; i <= 40; ++i) {
       mark_number({centre[0] + i * step, x_axis_seen ? 0 : low, 0}, centre[0] + i * step, 3, 2);
       if (std::abs(centre[1] + i * step) > 1e-9 * step) mark_number({y_axis_seen ? 0 : left, centre[1] + i * step, 0}, centre[1] + i * step, 3, 2);
     }
@@ -46,6 +55,11 @@ void Painter::mark_number(const ViewPoint& at, double value, double dx, double d
   if (!settings_.labels) return;
   char text[24];
   std::snprintf(text, sizeof text, "%.4g", std::abs(value) < 1e-12 * unit() ? 0.0 : value);
+  // Cut off at the view's border, -7 would read as 7.
+  const Projected p = projection_(at);
+  const ViewRectangle& view = projection_.rectangle();
+  const double width = 7 * static_cast<double>(std::strlen(text));
+  if (p.x + dx < view.x + 2 || p.x + dx + width > view.x + view.width || p.y + dy < view.y || p.y + dy + 12 > view.y + view.height) return;
   picture_.scale_marks.push_back({at, text, palette_.text_faint.with_alpha(0.75), dx, dy, true, false});
 }
 

@@ -31,6 +31,7 @@ class Painter {
   /// A share of the view along a direction, or nothing for a direction that is none.
   ViewPoint arrow_along(const AnyVector& direction, double share = 0.3) const;
 
+  double round_step(double pixels) const;
   void grid();
   void mesh(const DisplayMesh& m, Colour colour, double opacity, const ViewPoint& offset);
   void label(const ViewPoint& at, const std::string& text, Colour colour, double dx = 9, double dy = -9);

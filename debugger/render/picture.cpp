@@ -47,15 +47,16 @@ class LabelPlaces {
   LabelPlaces(const std::vector<FlatItem>& drawn, const ViewRectangle& view, double scale) : drawn_(drawn), view_(view), scale_(scale) {}
 
   LabelBox take(const Projected& at, const PictureLabel& label) {
-    const double w = (label.small ? 6.5 : 8.5) * static_cast<double>(label.text.size()), h = label.small ? 13 : 17, right = std::abs(label.dx), side = label.dy;
+    const double w = (label.small ? 6 : 7) * static_cast<double>(label.text.size()), h = label.small ? 13 : 17, right = std::abs(label.dx), side = label.dy;
     const auto centred = [&](double dx, double dy) { return LabelBox{at.x + scale_ * dx, at.y + scale_ * (dy - h / 2), scale_ * w, scale_ * h}; };
-    const std::array<LabelBox, 12> boxes{centred(label.dx, side), centred(-right - w, side), centred(right, -side), centred(-right - w, -side),
+    const std::array<LabelBox, 16> boxes{centred(label.dx, side), centred(-right - w, side), centred(right, -side), centred(-right - w, -side),
                                     centred(-w / 2, side - 14), centred(-w / 2, 14 - side), centred(right + 4, 0), centred(-right - 4 - w, 0),
-                                    centred(right + 14, side - 20), centred(right + 14, 20 - side), centred(-right - 14 - w, side - 20), centred(-right - 14 - w, 20 - side)};
+                                    centred(right + 14, side - 20), centred(right + 14, 20 - side), centred(-right - 14 - w, side - 20), centred(-right - 14 - w, 20 - side),
+                                    centred(-w / 2, side - 32), centred(-w / 2, 32 - side), centred(right, side - 36), centred(right, 36 - side)};
     const LabelBox* best = &boxes.front();
     double least = std::numeric_limits<double>::infinity();
     for (const LabelBox& box : boxes)
-      if (const double hidden = hides(box); hidden < least) least = hidden, best = &box;
+      if (const double bad = hides(box) + misleads(box, at); bad < least) least = bad, best = &box;
     taken_.push_back(*best);
     return *best;
   }
@@ -63,7 +64,7 @@ class LabelPlaces {
  private:
   static double weight(const FlatItem& line) { return line.width >= 2 ? 1 : 0.5 * line.colour.a / 255; }
 
-  /// In pixels of a strong line: a weaker one counts half at most, a point as many as it is wide and some, a label or the border of the view far more.
+  /// In pixels of a strong line: a weaker one counts half at most, a point as many as it is wide and 30, a label or the border of the view far more.
   double hides(const LabelBox& box) const {
     double sum = 0;
     if (box.x < view_.x || box.x + box.w > view_.x + view_.width || box.y < view_.y || box.y + box.h > view_.y + view_.height) sum += 1000;
@@ -71,8 +72,21 @@ class LabelPlaces {
     for (const FlatItem& item : drawn_) {
       const Projected& p = item.points.front();
       const double r = scale_ * item.width;
-      if (item.kind == FlatItem::Kind::point && box.meets({p.x - r, p.y - r, 2 * r, 2 * r})) sum += 2 * r + 10;
+      if (item.kind == FlatItem::Kind::point && box.meets({p.x - r, p.y - r, 2 * r, 2 * r})) sum += 2 * r + 30;
       if (item.kind == FlatItem::Kind::line && item.width > 1) sum += weight(item) * length_inside(box, p, item.points.back());
+    }
+    return sum;
+  }
+
+  static double distance(const LabelBox& box, const Projected& p) { return std::hypot(std::max({box.x - p.x, 0.0, p.x - box.x - box.w}), std::max({box.y - p.y, 0.0, p.y - box.y - box.h})); }
+
+  /// What stands nearer to another point than to its own is taken for that one's; and far off for nobody's.
+  double misleads(const LabelBox& box, const Projected& at) const {
+    const double own = distance(box, at);
+    double sum = own / scale_;
+    for (const FlatItem& item : drawn_) {
+      const Projected& p = item.points.front();
+      if (item.kind == FlatItem::Kind::point && std::hypot(p.x - at.x, p.y - at.y) > 2 * scale_ && distance(box, p) < own) sum += 80;
     }
     return sum;
   }

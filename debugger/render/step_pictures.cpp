@@ -25,7 +25,7 @@ ViewPoint middle(const DisplayMesh& mesh) {
 
 ViewPoint row_offset(int body, int dimension, const Projection& projection) {
   if (dimension > 1) return ViewPoint::Zero();
-  return {0, (body == 0 ? 0.3 : -0.3) * half_view(projection), 0};
+  return {0, (body % 2 == 0 ? 0.3 : -0.3) * half_view(projection), 0};
 }
 
 std::string simplex_letter(const Frame& frame, int vertex, bool newest_first) {

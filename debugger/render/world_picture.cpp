@@ -100,21 +100,25 @@ class WorldPainter : public Painter {
     return fastest;
   }
 
+  /// Whose a motion is, where there are others.
+  std::string of_body(std::size_t i) const { return frame_.places.size() > 2 ? std::string(" of ") + static_cast<char>('A' + i) : ""; }
+
   /// Angular velocities: in space an arrow along the axis, in the plane an arc the way the body turns.
   void spins(double fastest) {
     if (!(fastest > 0)) return;
-    for (const Frame::Place& place : frame_.places) {
+    for (std::size_t i = 0; i < frame_.places.size(); ++i) {
+      const Frame::Place& place = frame_.places[i];
       const ViewPoint from = to_view(place.position);
       if (place.spin.size() == 3) {
         const ViewPoint w(place.spin[0], place.spin[1], place.spin[2]);
         if (!(w.norm() > least_share * fastest)) continue;
         const ViewPoint tip = from + w * (0.3 * unit() / fastest);
         picture_.arrow(from, tip, palette_.chosen);
-        label(tip, "turning", palette_.chosen);
+        label(tip, "turning" + of_body(i), palette_.chosen);
       } else if (place.spin.size() == 1 && std::abs(place.spin[0]) > least_share * fastest) {
         const double sweep = place.spin[0] / fastest * 1.5, r = 0.14 * unit();
         const auto on_arc = [&](double share) { return ViewPoint(from + r * ViewPoint(std::cos(share * sweep), std::sin(share * sweep), 0)); };
-        for (int i = 0; i < 11; ++i) picture_.line(on_arc(i / 12.0), on_arc((i + 1) / 12.0), palette_.chosen, 2);
+        for (int k = 0; k < 11; ++k) picture_.line(on_arc(k / 12.0), on_arc((k + 1) / 12.0), palette_.chosen, 2);
         picture_.arrow(on_arc(11 / 12.0), on_arc(1), palette_.chosen, 2);
       }
     }
@@ -130,9 +134,9 @@ class WorldPainter : public Painter {
     for (std::size_t i = 0; i < frame_.places.size(); ++i) {
       const ViewPoint v = to_view(frame_.places[i].velocity);
       if (!(v.norm() > least_share * fastest)) continue;
-      const ViewPoint from = to_view(frame_.places[i].position), tip = from + v * (0.35 * unit() / fastest);
+      const ViewPoint from = to_view(frame_.places[i].position) + one_d_offset(static_cast<int>(i)), tip = from + v * (0.35 * unit() / fastest);
       picture_.arrow(from, tip, palette_.support);
-      label(tip, "velocity", palette_.support);
+      label(tip, "velocity" + of_body(i), palette_.support);
     }
     if (const auto* e = std::get_if<recorded::ImpulseApplied>(&recording_.events[frame_.step])) impulse(*e);
     if (const auto* e = std::get_if<recorded::ContactFound>(&recording_.events[frame_.step])) picture_.points.push_back({to_view(e->point), palette_.chosen, 6, Mark::square, -1});
@@ -154,7 +158,7 @@ class WorldPainter : public Painter {
       const bool newest = frame_.newest == number && !over, in_simplex = std::find(frame_.simplex.begin(), frame_.simplex.end(), number) != frame_.simplex.end();
       const bool selected = settings_.selected == number || settings_.pointed == number;
       if (((!newest && !in_simplex) || over) && !selected) continue;
-      const ViewPoint a = to_view(v.a) + one_d_offset(0), b = to_view(v.b) + one_d_offset(1);
+      const ViewPoint a = to_view(v.a) + one_d_offset(frame_.pair[0]), b = to_view(v.b) + one_d_offset(frame_.pair[1]);
       const Colour colour = newest ? palette_.support : palette_.support.with_alpha(0.45);
       picture_.points.push_back({a, colour, newest ? 6.0 : 4.0, Mark::disc, number});
       picture_.points.push_back({b, colour, newest ? 6.0 : 4.0, Mark::square, number});
@@ -176,15 +180,15 @@ class WorldPainter : public Painter {
   /// A point of each body, looking for the one nearest to the other; and where the next look begins.
   void projected() {
     if (frame_.predicted) {
-      const ViewPoint x = to_view(*frame_.predicted) + one_d_offset(0);
+      const ViewPoint x = to_view(*frame_.predicted) + one_d_offset(frame_.pair[0]);
       picture_.points.push_back({x, palette_.chosen, 9, Mark::ring, -1});
       label(x, "x", palette_.chosen, -12, 10);
     }
     const auto* e = std::get_if<recorded::PointsProjected>(&recording_.events[frame_.step]);
     if (!e) return;
-    const ViewPoint a = to_view(e->a) + one_d_offset(0), b = to_view(e->b) + one_d_offset(1);
+    const ViewPoint a = to_view(e->a) + one_d_offset(frame_.pair[0]), b = to_view(e->b) + one_d_offset(frame_.pair[1]);
     picture_.line(a, b, palette_.simplex, 1.6, Stroke::dashed);
-    if (frame_.predicted) picture_.line(to_view(*frame_.predicted) + one_d_offset(0), b, palette_.chosen, 1.2, Stroke::dashed);
+    if (frame_.predicted) picture_.line(to_view(*frame_.predicted) + one_d_offset(frame_.pair[0]), b, palette_.chosen, 1.2, Stroke::dashed);
     picture_.points.push_back({a, palette_.simplex, 6, Mark::disc, -1});
     picture_.points.push_back({b, palette_.simplex, 6, Mark::square, -1});
     label(a, "a", palette_.simplex);
@@ -206,7 +210,9 @@ class WorldPainter : public Painter {
     if (frame_.step + 1 != recording_.events.size()) return;
     const Result& r = recording_.result;
     if (!r.witness_a || !r.witness_b) return;
-    const ViewPoint a = to_view(*r.witness_a) + one_d_offset(0), b = to_view(*r.witness_b) + one_d_offset(1);
+    if (moves() && r.time && frame_.time != r.time) return;  // the bodies have moved on since
+    const auto pair = r.pair.value_or(frame_.pair);
+    const ViewPoint a = to_view(*r.witness_a) + one_d_offset(pair[0]), b = to_view(*r.witness_b) + one_d_offset(pair[1]);
     picture_.lines.push_back({a, b, palette_.frontier, 2.5, Stroke::solid, false, true});
     picture_.points.push_back({a, palette_.body_a, 6, Mark::disc, -1});
     picture_.points.push_back({b, palette_.body_b, 6, Mark::disc, -1});

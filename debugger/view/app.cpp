@@ -107,6 +107,7 @@ void App::panels(const Area& window) {
     return;
   }
   const bool narrow = window.width < theme.px(1180);
+  wide_ = !narrow;
   Preferences& p = preferences;
   const float rail = theme.px(44);
   const float left = narrow ? rail : std::min(theme.px(p.left), window.width * 0.35f), right = std::min(theme.px(p.right), window.width * (narrow ? 0.29f : 0.4f));
@@ -213,6 +214,8 @@ void App::lecture_panel(const Area& area) {
     lecture_place(place_text(session));
     ImGui::PushFont(theme.lecture);
     wrapped(e.text, theme.palette.text_soft);
+    for (const Finding& f : session.findings())
+      if (f.step == session.step()) wrapped(f.message, theme.palette.newest);
     ImGui::PopFont();
     ImGui::SetWindowFontScale(1);
   }
@@ -331,10 +334,12 @@ void App::icon_rail(const Area& area) {
   icon("##gallery", "Gallery (G)", true);
   icon("##scene", "Scene: bodies, method, what is shown (G)", false);
   if (const auto now = std::exchange(rail_opens_, opens)) ImGui::OpenPopup(popup_of(*now));  // a frame later: the click itself still closes what is open
+  rail_open_ = false;
   for (const bool gallery : {true, false}) {
     ImGui::SetNextWindowPos({area.x + area.width + theme.px(4), area.y});
     ImGui::SetNextWindowSize({theme.px(290), std::min(area.height, theme.px(620))});
     if (!ImGui::BeginPopup(popup_of(gallery ? LeftTab::gallery : LeftTab::scene))) continue;
+    rail_open_ = true;
     gallery ? gallery_panel(*this) : scene_panel(*this);
     ImGui::EndPopup();
   }

@@ -94,6 +94,7 @@ class App {
   Thumbnails thumbnails_;
   int fitted_ = 0;
   std::optional<LeftTab> rail_opens_;  ///< with the next frame
+  bool wide_ = true, rail_open_ = false;  ///< whether the left panel has room; where it has none, whether what the rail opens is open
   Asking asking_ = Asking::nothing, asked_ = Asking::nothing;
   std::string find_error_;
   std::optional<std::size_t> found_;  ///< by the dialog's last search
@@ -127,7 +128,13 @@ std::string shortened(const ImFont* font, const std::string& text, float room);
 void wrapped(const std::string& text, Colour colour);
 /// A label on the left and a number in the monospaced font, right-aligned, below where there is no room beside. With a source, the step that produced the number, a click goes there.
 void number_row(const Theme& theme, const char* label, const std::string& value, Colour colour);
-void number_row(App& app, const char* label, const std::string& value, Colour colour, std::optional<std::size_t> source);
+/// `exact`: with all digits, for the tooltip and a right click, which copies it.
+void number_row(App& app, const char* label, const std::string& value, Colour colour, std::optional<std::size_t> source, const std::string& exact = {});
+/// With all digits, and as they are shown.
+void number_row(App& app, const char* label, double value, Colour colour, std::optional<std::size_t> source = {});
+void number_row(App& app, const char* label, const AnyVector& value, Colour colour, std::optional<std::size_t> source = {});
+/// Of the two bodies that are looked at their own colours, of the others none.
+Colour letter_colour(App& app, int body);
 /// One of several buttons of which one is `current`; width 0: as the text needs.
 bool tab_button(const Theme& theme, const char* name, bool current, float width = 0);
 /// A rounded label.

@@ -16,39 +16,6 @@ std::string feature_name(std::size_t vertices) {
   return vertices < 5 ? names[vertices] : "simplex";
 }
 
-/// `bodies`: what the origin lies in the difference of, "bodies" or "cores".
-std::string sentence(const recorded::GjkEnded& e, const std::string& bodies) {
-  switch (e.status) {
-    case GjkStatus::converged:
-      if (!std::isfinite(e.lower_bound) || !std::isfinite(e.upper_bound)) return "The search ends, and the bodies are called apart. How far is not said here.";
-      return "No support lies nearer the origin than v: the bounds " + short_number(e.lower_bound) + " and " + short_number(e.upper_bound) + " have met. The signed distance is known.";
-    case GjkStatus::separated: return "The plane of the last support has all of A - B on its far side, so the bodies are apart. Only yes or no was asked, and this is the proof.";
-    case GjkStatus::within_radius: return "The cores are apart, but nearer than the radii around them: the bodies overlap, and no more was asked.";
-    case GjkStatus::enclosed: return "The simplex encloses the origin: some point of A is also a point of B. The " + bodies + " overlap.";
-    case GjkStatus::touching: return "The origin lies on the simplex, within rounding: on a vertex, an edge or a face. Whether this is touch or overlap, EPA will tell.";
-    case GjkStatus::stalled: return "|v| no longer falls: the precision is used up, or the method's own rule stops it. The bounds say how much is known.";
-    case GjkStatus::iteration_limit: return "The iteration limit is reached before the bounds met. This is no answer; the bounds say how much is known.";
-    case GjkStatus::rule_met: return "The stopping rule of the method is met. Bounds that have not met say that it stopped early.";
-    case GjkStatus::aborted: return "The solver ended without an answer.";
-  }
-  return {};
-}
-
-/// `face`: what the polytope's border consists of, "face" or in the plane "edge".
-std::string sentence(const recorded::EpaEnded& e, const std::string& face, const std::string& bodies) {
-  switch (e.status) {
-    case EpaStatus::converged:
-      return "No vertex lies beyond the chosen " + face + ": it is part of the boundary of A - B, and its distance is the depth. Moving B by " + short_number(e.depth) + " along " +
-             short_vector(e.normal) + " just separates the bodies.";
-    case EpaStatus::flat: return std::string("A - B has no ") + (face == "edge" ? "area" : "volume") + " here: the " + bodies + " touch without depth. The normal is across the flat difference.";
-    case EpaStatus::separated: return "A support plane has the origin on its far side: the bodies are apart after all, by less than GJK could tell.";
-    case EpaStatus::stalled: return "No " + face + " can be added in this precision. The last good " + face + " is the answer, and the bounds say how exact it is.";
-    case EpaStatus::iteration_limit: return "The limit is reached before the bounds met, as on round shapes with many directions equally good. The bounds say how much is known.";
-    case EpaStatus::aborted: return "The solver ended without an answer.";
-  }
-  return {};
-}
-
 struct Explain : ExplainMotion {
   using ExplainMotion::operator();
 
@@ -83,19 +50,62 @@ struct Explain : ExplainMotion {
     return text;
   }
 
-  /// Whether the bodies have radii around their cores.
-  bool rounded() const {
-    const auto& bodies = recording.scene.scene.bodies;
-    return std::any_of(bodies.begin(), bodies.end(), [](const Body& b) { return b.shape.margin > 0 || std::holds_alternative<Sphere>(b.shape.geometry) || std::holds_alternative<Capsule>(b.shape.geometry); });
+  bool rounded() const { return gjkdbg::rounded(recording.scene.scene); }
+  const char* bodies() const { return rounded() ? "cores" : "bodies"; }
+
+  std::string a() const { return body_letter(frame.pair[0]); }
+  std::string b() const { return body_letter(frame.pair[1]); }
+  std::string difference() const { return a() + " - " + b(); }
+
+  /// GJK sees the cores alone.
+  std::string less_the_radii(const recorded::GjkEnded& e) const {
+    if (!rounded() || !frame.closest) return "";
+    const double cores = frame.closest->norm(), radii = cores - (e.lower_bound + e.upper_bound) / 2;
+    return radii > 1e-9 * cores ? ": |v| = " + short_number(cores) + " between the cores, less the radii, " + short_number(radii) + " together" : "";
+  }
+  std::string with_the_radii(const recorded::EpaEnded& e) const {
+    const auto chosen = frame.chosen ? frame.faces.find(*frame.chosen) : frame.faces.end();
+    if (!rounded() || chosen == frame.faces.end() || !(e.depth - chosen->second.distance > 1e-9 * e.depth)) return "";
+    return ", " + short_number(chosen->second.distance) + " of the cores, with the radii, " + short_number(e.depth - chosen->second.distance) + " together,";
   }
 
-  const char* bodies() const { return rounded() ? "cores" : "bodies"; }
+  std::string sentence(const recorded::GjkEnded& e) const {
+    switch (e.status) {
+      case GjkStatus::converged:
+        if (!std::isfinite(e.lower_bound) || !std::isfinite(e.upper_bound)) return "The search ends, and the bodies are called apart. How far is not said here.";
+        return "No support lies nearer the origin than v: the bounds " + short_number(e.lower_bound) + " and " + short_number(e.upper_bound) + " have met. The signed distance is known" + less_the_radii(e) + ".";
+      case GjkStatus::separated: return "The plane of the last support has all of " + difference() + " on its far side, so the bodies are apart. Only yes or no was asked, and this is the proof.";
+      case GjkStatus::within_radius: return "The cores are apart, but nearer than the radii around them: the bodies overlap, and no more was asked.";
+      case GjkStatus::enclosed: return "The simplex encloses the origin: some point of " + a() + " is also a point of " + b() + ". The " + bodies() + " overlap.";
+      case GjkStatus::touching: return "The origin lies on the simplex, within rounding: on a vertex, an edge or a face. Whether this is touch or overlap, EPA will tell.";
+      case GjkStatus::stalled: return "|v| no longer falls: the precision is used up, or the method's own rule stops it. The bounds say how much is known.";
+      case GjkStatus::iteration_limit: return "The iteration limit is reached before the bounds met. This is no answer; the bounds say how much is known.";
+      case GjkStatus::rule_met: return "The stopping rule of the method is met. Bounds that have not met say that it stopped early.";
+      case GjkStatus::aborted: return "The solver ended without an answer.";
+    }
+    return {};
+  }
+
+  std::string sentence(const recorded::EpaEnded& e) const {
+    const std::string face = facet();
+    switch (e.status) {
+      case EpaStatus::converged:
+        return "No vertex lies beyond the chosen " + face + ": it is part of the boundary of " + difference() + ", and its distance" + with_the_radii(e) + " is the depth. Moving " + b() + " by " + short_number(e.depth) + " along " +
+               short_vector(e.normal) + " just separates the bodies.";
+      case EpaStatus::flat: return difference() + " has no " + std::string(face == "edge" ? "area" : "volume") + " here: the " + bodies() + " touch without depth. The normal is across the flat difference.";
+      case EpaStatus::separated: return "A support plane has the origin on its far side: the bodies are apart after all, by less than GJK could tell.";
+      case EpaStatus::stalled: return "No " + face + " can be added in this precision. The last good " + face + " is the answer, and the bounds say how exact it is.";
+      case EpaStatus::iteration_limit: return "The limit is reached before the bounds met, as on round shapes with many directions equally good. The bounds say how much is known.";
+      case EpaStatus::aborted: return "The solver ended without an answer.";
+    }
+    return {};
+  }
 
   /// Where GJK begins when it is not told.
   std::string first_way(const AnyVector& direction) const {
     const auto& bodies = recording.scene.scene.bodies;
     const bool fallback = bodies.size() == 2 && bodies[0].pose.position == bodies[1].pose.position && direction.tail(direction.size() - 1).isZero(0);
-    return fallback ? ", for the bodies' positions coincide. Any direction but zero would do." : ", from A towards B. Any direction but zero would do.";
+    return fallback ? ", for the bodies' positions coincide. Any direction but zero would do." : ", from " + a() + " towards " + b() + ". Any direction but zero would do.";
   }
 
   Explanation operator()(const recorded::GjkBegan& e) const {
@@ -106,22 +116,22 @@ struct Explain : ExplainMotion {
   }
 
   Explanation operator()(const recorded::VertexKept& e) const {
-    return {"A vertex kept", "w = " + short_vector(e.w) + " was in the simplex the last run ended with. Its points of A and B have moved with them: it still lies in A - B, so the search goes on from there."};
+    return {"A vertex kept", "w = " + short_vector(e.w) + " was in the simplex the last run ended with. Its points of " + a() + " and " + b() + " have moved with them: it still lies in " + difference() + ", so the search goes on from there."};
   }
 
   Explanation operator()(const recorded::SupportQueried& e) const {
-    const std::string where = "The farthest point of A - B along d = " + short_vector(e.direction) + " is w = a - b = " + short_vector(e.w) + ". ";
+    const std::string where = "The farthest point of " + difference() + " along d = " + short_vector(e.direction) + " is w = a - b = " + short_vector(e.w) + ". ";
     if (e.phase == Phase::seed) return {"Support for EPA's start", where + "The simplex GJK left has too few corners for EPA: what is missing is asked for, across what is there."};
     if (e.phase == Phase::mpr)
       return {"Support for the portal", where + (e.direction.dot(e.w) < 0 ? "It lies short of the origin: its plane proves the bodies apart."
                                                                          : "It lies at or past the origin along d, so this plane does not separate the bodies.")};
-    if (e.phase == Phase::cast) return {"Support for the ray", where + "Nothing of A - B lies beyond the plane there: if the point x on the ray still does, x moves on to that plane."};
+    if (e.phase == Phase::cast) return {"Support for the ray", where + "Nothing of " + difference() + " lies beyond the plane there: if the point x on the ray still does, x moves on to that plane."};
     if (e.phase == Phase::sat) return {"Support along an axis", where + "How far it reaches past the origin is how far the bodies overlap along this axis."};
     if (e.phase == Phase::epa) return {"Support across the chosen " + facet(), where + reach_across(e)};
     const double along = e.direction.stableNormalized().dot(e.w);
     if (frame.simplex.size() <= 1) return {"First support", where + "One corner of the difference is a start: the simplex is this point."};
     const auto [title, why] = way(e.direction);
-    return {title, why + where + (along < 0 ? "It lies " + short_number(-along) + " short of the origin along d: all of A - B does, so the " + bodies() + " are at least that far apart."
+    return {title, why + where + (along < 0 ? "It lies " + short_number(-along) + " short of the origin along d: all of " + difference() + " does, so the " + bodies() + " are at least that far apart."
                                                               : "It lies at or past the origin along d, so nothing is proven yet.")};
   }
 
@@ -207,17 +217,26 @@ struct Explain : ExplainMotion {
   Explanation operator()(const recorded::GjkEnded& e) const {
     if (foreign(recording) && e.status != GjkStatus::aborted)
       return {"The solver ends", std::string("It takes the bodies to be ") + (e.status == GjkStatus::enclosed || e.status == GjkStatus::touching || e.status == GjkStatus::within_radius ? "overlapping." : "apart.")};
-    return {"GJK ends: " + in_words(gjk_status_names[static_cast<std::size_t>(e.status)]), sentence(e, bodies())};
+    return {"GJK ends: " + in_words(gjk_status_names[static_cast<std::size_t>(e.status)]), sentence(e)};
   }
 
   Explanation operator()(const recorded::PolytopeSeeded& e) const {
     return {"EPA begins with " + std::to_string(e.faces.size()) + " " + facet() + "s",
-            "A polytope inside A - B that holds the origin. It grows outwards until its nearest " + facet() + " is part of the boundary; that " + facet() + "'s distance is the depth."};
+            "A polytope inside " + difference() + " that holds the origin. It grows outwards until its nearest " + facet() + " is part of the boundary; that " + facet() + "'s distance" + (rounded() ? ", and the radii, are" : " is") + " the depth."};
+  }
+
+  /// A solver knows its faces by them.
+  std::string vertices_of(int face) const {
+    const auto found = frame.faces.find(face);
+    if (found == frame.faces.end()) return "";
+    std::string text;
+    for (const int v : found->second.vertices) text += " #" + std::to_string(v);
+    return " (vertices" + text + ")";
   }
 
   Explanation operator()(const recorded::FaceChosen& e) const {
-    if (foreign(recording)) return {"The solver's nearest " + facet(), "It takes " + facet() + " " + std::to_string(e.face) + " for the nearest to the origin, and gives " + short_number(e.distance) + " for its distance, " + short_vector(e.normal) + " for its normal."};
-    return {"Nearest " + facet() + " chosen", std::string(facet() == "edge" ? "Edge " : "Face ") + std::to_string(e.face) + " is nearest the origin, at " + short_number(e.distance) + ". The depth is at least that. Is there anything of A - B beyond it?"};
+    if (foreign(recording)) return {"The solver's nearest " + facet(), "It takes " + facet() + " " + std::to_string(e.face) + vertices_of(e.face) + " for the nearest to the origin, and gives " + short_number(e.distance) + " for its distance, " + short_vector(e.normal) + " for its normal."};
+    return {"Nearest " + facet() + " chosen", std::string(facet() == "edge" ? "Edge " : "Face ") + std::to_string(e.face) + " is nearest the origin, at " + short_number(e.distance) + ". The depth is at least that. Is there anything of " + difference() + " beyond it?"};
   }
 
   Explanation operator()(const recorded::PolytopeGrown& e) const {
@@ -228,26 +247,28 @@ struct Explain : ExplainMotion {
   }
 
   Explanation operator()(const recorded::EpaEnded& e) const {
-    return {"EPA ends: " + in_words(epa_status_names[static_cast<std::size_t>(e.status)]), sentence(e, facet(), bodies())};
+    if (foreign(recording) && e.status != EpaStatus::aborted)
+      return {"The solver's EPA ends", "It takes the " + facet() + " chosen for part of the boundary, and gives " + short_number(e.depth) + " for the depth" + (e.normal.isZero(0) ? "." : ", " + short_vector(e.normal) + " for the normal.")};
+    return {"EPA ends: " + in_words(epa_status_names[static_cast<std::size_t>(e.status)]), sentence(e)};
   }
 
   Explanation operator()(const recorded::MprBegan& e) const {
-    return {"MPR begins", "From a point inside A - B, " + short_vector(e.interior) + ", the difference of two inner points of the bodies, a ray goes through the origin. Where does it leave A - B: before the origin or beyond it?"};
+    return {"MPR begins", "From a point inside " + difference() + ", " + short_vector(e.interior) + ", the difference of two inner points of the bodies, a ray goes through the origin. Where does it leave " + difference() + ": before the origin or beyond it?"};
   }
 
   Explanation operator()(const recorded::PortalFound& e) const {
-    return {"A portal", "The ray passes between these vertices. " + std::string(e.distance < 0 ? "The origin is still beyond the portal, by " + short_number(-e.distance) + ": is there anything of A - B farther out?"
+    return {"A portal", "The ray passes between these vertices. " + std::string(e.distance < 0 ? "The origin is still beyond the portal, by " + short_number(-e.distance) + ": is there anything of " + difference() + " farther out?"
                                                                                               : "The origin is on the inner side, by " + short_number(e.distance) + ": the bodies overlap. The portal moves out to the boundary for the depth.")};
   }
 
   Explanation operator()(const recorded::MprEnded& e) const {
     const std::string title = "MPR ends: " + in_words(mpr_status_names[static_cast<std::size_t>(e.status)]);
     switch (e.status) {
-      case MprStatus::separated: return {title, "The plane of the last support has all of A - B on its far side: the bodies are apart, by at least " + short_number(-e.depth) + ". How far, MPR does not know."};
+      case MprStatus::separated: return {title, "The plane of the last support has all of " + difference() + " on its far side: the bodies are apart, by at least " + short_number(-e.depth) + ". How far, MPR does not know."};
       case MprStatus::overlapping: return {title, "The origin lies inside a portal: the bodies overlap, and no more was asked."};
       case MprStatus::converged:
-        return {title, "The portal is part of the boundary. Moving B by " + short_number(e.depth) + " along its normal " + short_vector(e.normal) + " separates the bodies; a shorter way may exist, for MPR looks in one direction only."};
-      case MprStatus::flat: return {title, "A - B has no volume, so no point of it is inside: MPR has nowhere to look from, and GJK and EPA answer instead."};
+        return {title, "The portal is part of the boundary. Moving " + b() + " by " + short_number(e.depth) + " along its normal " + short_vector(e.normal) + " separates the bodies; a shorter way may exist, for MPR looks in one direction only."};
+      case MprStatus::flat: return {title, difference() + " has no volume, so no point of it is inside: MPR has nowhere to look from, and GJK and EPA answer instead."};
       case MprStatus::stalled: return {title, "The portal no longer moves in this precision. The bounds say how much is known."};
       case MprStatus::iteration_limit: return {title, "The limit is reached. The bounds say how much is known."};
     }
@@ -256,22 +277,22 @@ struct Explain : ExplainMotion {
 
   Explanation operator()(const recorded::SatBegan& e) const {
     if (recording.scene.scene.dimension == 2)
-      return {"SAT begins", "Two convex polygons are apart exactly when the normal of an edge separates them: " + std::to_string(e.faces_a) + " normals of A's edges and " + std::to_string(e.faces_b) + " of B's." + (e.faces_a == 2 && e.faces_b == 2 ? " Opposite edges of a box share one." : "")};
-    return {"SAT begins", "Two polytopes are apart exactly when the normal of a face or the cross product of two edges separates them: " + std::to_string(e.faces_a) + " faces of A, " + std::to_string(e.faces_b) +
-                              " of B, and of " + std::to_string(e.edge_pairs) + " pairs of edges those that make a face of A - B." +
+      return {"SAT begins", "Two convex polygons are apart exactly when the normal of an edge separates them: " + std::to_string(e.faces_a) + " normals of " + a() + "'s edges and " + std::to_string(e.faces_b) + " of " + b() + "'s." + (e.faces_a == 2 && e.faces_b == 2 ? " Opposite edges of a box share one." : "")};
+    return {"SAT begins", "Two polytopes are apart exactly when the normal of a face or the cross product of two edges separates them: " + std::to_string(e.faces_a) + " faces of " + a() + ", " + std::to_string(e.faces_b) +
+                              " of " + b() + ", and of " + std::to_string(e.edge_pairs) + " pairs of edges those that make a face of " + difference() + "." +
                               (e.faces_a == 3 && e.faces_b == 3 && e.edge_pairs == 9 ? " Of two boxes opposite faces and parallel edges share an axis." : "")};
   }
 
   Explanation operator()(const recorded::AxisTested& e) const {
-    static const char* const from[] = {"a face of A", "a face of B", "an edge of each"};
-    const std::string axis = "Along " + short_vector(e.direction) + ", from " + from[static_cast<std::size_t>(e.source)] + ", ";
+    const std::string from[] = {"the normal of a " + facet() + " of " + a(), "the normal of a " + facet() + " of " + b(), "across an edge of each"};
+    const std::string axis = "Along " + short_vector(e.direction) + ", " + from[static_cast<std::size_t>(e.source)] + ", ";
     if (e.distance > 0) return {"An axis with a gap", axis + "the bodies are " + short_number(e.distance) + " apart: this axis separates them."};
     return {"An axis without a gap", axis + "the bodies overlap by " + short_number(-e.distance) + (e.lower_bound <= e.distance ? ", the least so far: the depth is no more than that." : ", more than along the best axis so far.")};
   }
 
   Explanation operator()(const recorded::PointsProjected& e) const {
     if (frame.stage == Frame::Stage::projections) {
-      const std::string points = "b = " + short_vector(e.b) + " is the point of B nearest to x, and a = " + short_vector(e.a) + " that of A nearest to b. ";
+      const std::string points = "b = " + short_vector(e.b) + " is the point of " + b() + " nearest to x, and a = " + short_vector(e.a) + " that of " + a() + " nearest to b. ";
       if (e.closest.isZero(0)) return {"A point of both bodies", points + "They are the same: the cores overlap."};
       return {"Nearest points in turn", points + "They are " + short_number(e.closest.norm()) + " apart" + (farther(e) ? ", more than before: the step went too far, and part of it is taken back." : ".")};
     }
@@ -286,21 +307,26 @@ struct Explain : ExplainMotion {
     return false;
   }
 
+  bool gjk_follows() const { return frame.step + 1 < recording.events.size() && std::holds_alternative<recorded::GjkBegan>(recording.events[frame.step + 1]); }
+
   Explanation operator()(const recorded::SatEnded& e) const {
     const std::string title = "SAT ends: " + std::string(sat_status_names[static_cast<std::size_t>(e.status)]);
-    if (e.status == SatStatus::separated) return {title, "One separating axis is proof enough: the bodies (their cores) are apart. Of two boxes, or two polygons in the plane, it leads from one nearest point to the other, unless rounding or edges nearly parallel leave that to GJK; of other bodies GJK measures the distance, if it is asked for."};
+    if (e.status == SatStatus::separated && frame.step > 0 && std::holds_alternative<recorded::PointsProjected>(recording.events[frame.step - 1]))
+      return {title, "An axis separates the bodies (their cores), and the points projected last are each the nearest to the other: " + short_number(e.distance) + " along " + short_vector(e.normal) + " is the distance."};
+    if (e.status == SatStatus::separated)
+      return {title, "One separating axis is proof enough: the bodies (their cores) are apart, " + (gjk_follows() ? "by at least " + short_number(e.distance) + ". GJK measures how far." : recording.scene.scene.query == Query::intersect ? "and no more was asked." : short_number(e.distance) + " along " + short_vector(e.normal) + ", from one nearest point to the other.")};
     if (e.status == SatStatus::undecided) return {title, "The widest gap, " + short_number(e.distance) + ", is within rounding. Bodies that touch have none wider, but neither have sharp ones that point at each other from afar. GJK tells them apart."};
     return {title, "No axis separates, so the bodies overlap; the least overlap of all axes, " + short_number(-e.distance) + " along " + short_vector(e.normal) + ", is the depth, exactly."};
   }
 
   Explanation operator()(const recorded::ClosedFormBegan& e) const {
     const bool a = !e.edge_a.isZero(0), b = !e.edge_b.isZero(0);
-    const std::string what = a && b ? "Both cores are segments: A - B is the parallelogram with the corner c = " : a || b ? "One core is a point, the other a segment: A - B is a segment from c = " : "Both cores are points: A - B is the point c = ";
+    const std::string what = a && b ? "Both cores are segments: " + difference() + " is the parallelogram with the corner c = " : a || b ? "One core is a point, the other a segment: " + difference() + " is a segment from c = " : "Both cores are points: " + difference() + " is the point c = ";
     return {"A formula instead of a search", what + short_vector(e.corner) + (a ? ", edge u = " + short_vector(e.edge_a) : "") + (b ? std::string(a ? " and -v" : ", edge -v") + ", v = " + short_vector(e.edge_b) : "") + ". The radii are added afterwards."};
   }
 
   Explanation operator()(const recorded::ProjectionsBegan& e) const {
-    return {"Projections begin", "For shapes like these a formula gives the point nearest to another. From x = " + short_vector(e.point) + " inside A to the nearest of B, from there to the nearest of A, and so on: two points that are each the nearest to the other are the closest of all."};
+    return {"Projections begin", "For shapes like these a formula gives the point nearest to another. From x = " + short_vector(e.point) + " inside " + a() + " to the nearest of " + b() + ", from there to the nearest of " + a() + ", and so on: two points that are each the nearest to the other are the closest of all."};
   }
 
   Explanation operator()(const recorded::PointPredicted& e) const {
@@ -326,14 +352,18 @@ struct Explain : ExplainMotion {
   Explanation operator()(const recorded::ClosedFormEnded& e) const {
     const std::string title = "Closed form ends: " + std::string(closed_form_status_names[static_cast<std::size_t>(e.status)]), at = "At s = " + short_number(e.s) + ", t = " + short_number(e.t) + " ";
     if (e.status == ClosedFormStatus::separated) return {title, at + "w is nearest to the origin, " + short_number(e.closest.norm()) + " away, and the plane across it proves that. Less the radii, that is the bodies' distance."};
-    if (e.normal.norm() > 0) return {title, "The origin lies in A - B. " + at + "the border is nearest, " + short_number(e.closest.norm()) + " along " + short_vector(e.normal) + "; with the radii, that is the depth."};
-    return {title, "The origin lies in A - B, so the bodies overlap; no more was asked."};
+    if (e.normal.norm() > 0) return {title, "The origin lies in " + difference() + ". " + at + "the border is nearest, " + short_number(e.closest.norm()) + " along " + short_vector(e.normal) + "; with the radii, that is the depth."};
+    return {title, "The origin lies in " + difference() + ", so the bodies overlap; no more was asked."};
   }
 
   Explanation operator()(const recorded::Warning& e) const { return {"Warning: " + e.code, e.message}; }
 };
 
 }  // namespace
+
+bool rounded(const Scene& scene) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.shape.margin > 0 || std::holds_alternative<Sphere>(b.shape.geometry) || std::holds_alternative<Capsule>(b.shape.geometry); });
+}
 
 Explanation explain(const Recording& recording, const Frame& frame) { return std::visit(Explain{recording, frame}, recording.events[frame.step]); }
 

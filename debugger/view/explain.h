@@ -25,6 +25,8 @@ struct PseudoCode {
 };
 PseudoCode pseudo_code(const Recording& recording, std::size_t step);
 
+/// Whether bodies have radii around their cores.
+bool rounded(const Scene& scene);
 /// Whether an advance of a cast is the last before the bodies meet.
 bool meets_at(const Recording& recording, std::size_t step);
 /// The name it has in the scene; "body 0" where it has none.

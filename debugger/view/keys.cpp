@@ -72,7 +72,7 @@ void App::view_keys() {
   }
   if (key_pressed(Key::v)) preferences.layout = static_cast<Layout>((static_cast<int>(preferences.layout) + 1) % 4);
   if (key_pressed(Key::l)) preferences.linked_cameras = !preferences.linked_cameras;
-  if (key_pressed(Key::g)) left_tab = left_tab == LeftTab::gallery ? LeftTab::scene : LeftTab::gallery, rail_opens_ = left_tab;
+  if (key_pressed(Key::g)) left_tab = left_tab == LeftTab::gallery && (wide_ || rail_open_) ? LeftTab::scene : LeftTab::gallery, rail_opens_ = left_tab;
   if (key_pressed(Key::t)) preferences.dark = !preferences.dark;
   if (key_pressed(Key::e)) lecture = !lecture;
   if (key_pressed(Key::slash) || key_pressed(Key::f1)) show_keys = !show_keys;

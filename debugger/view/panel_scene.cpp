@@ -75,13 +75,13 @@ bool rotation(const Theme& theme, Pose& pose, int dimension) {
   if (dimension == 1) return false;
   if (dimension == 2) {
     double angle = to_plane_angle(pose.matrix).angle * degrees;
-    if (!numbers(theme, "rotation", &angle, 1, 0.5f)) return false;
+    if (!numbers(theme, "rotation \xC2\xB0", &angle, 1, 0.5f)) return false;
     pose.rotation = PlaneAngle{angle / degrees};
   } else {
     const Euler* given = std::get_if<Euler>(&pose.rotation);
     Euler euler = given && given->order == "xyz" && given->intrinsic ? *given : to_euler(pose.matrix, "xyz", true);
     for (double& a : euler.angles) a *= degrees;
-    if (!numbers(theme, "rotation", euler.angles.data(), 3, 0.5f)) return false;
+    if (!numbers(theme, "rotation \xC2\xB0", euler.angles.data(), 3, 0.5f)) return false;
     for (double& a : euler.angles) a /= degrees;
     pose.rotation = euler;
   }
@@ -125,12 +125,12 @@ bool choose_type(Shape& shape, int dimension, double size) {
   return edited;
 }
 
-bool body(const Theme& theme, Body& b, int index, int dimension, double size) {
+bool body(const Theme& theme, Body& b, int index, Colour colour, int dimension, double size) {
   ImGui::PushID(index);
   const auto speed = static_cast<float>(size * 0.005);
   ImGui::Dummy({0, theme.px(4)});
   ImGui::AlignTextToFramePadding();
-  ImGui::TextColored(vec(index == 0 ? theme.palette.body_a : index == 1 ? theme.palette.body_b : theme.palette.text_soft), "%s", body_letter(index).c_str());
+  ImGui::TextColored(vec(colour), "%s", body_letter(index).c_str());
   if (!b.name.empty() && b.name != body_letter(index)) {
     ImGui::SameLine();
     ImGui::PushClipRect(ImGui::GetCursorScreenPos(), {ImGui::GetWindowPos().x + theme.px(96), ImGui::GetCursorScreenPos().y + ImGui::GetFrameHeight()}, true);
@@ -148,7 +148,7 @@ bool body(const Theme& theme, Body& b, int index, int dimension, double size) {
     edited |= numbers(theme, "velocity", b.motion->velocity.data(), dimension, speed);
     if (b.motion->angular_velocity.size() > 0) {
       AnyVector turn = b.motion->angular_velocity * degrees;
-      if (numbers(theme, "turns by", turn.data(), static_cast<int>(turn.size()), 1)) b.motion->angular_velocity = turn / degrees, edited = true;
+      if (numbers(theme, "turns by \xC2\xB0", turn.data(), static_cast<int>(turn.size()), 1)) b.motion->angular_velocity = turn / degrees, edited = true;
     }
   }
   ImGui::PopID();
@@ -217,6 +217,12 @@ bool method(App& app, SceneFile& next) {
   if (choice(theme, "method", name, method_names, possible_methods(next))) change_name(next.method, static_cast<MethodName>(name)), edited = true;
   int part = static_cast<int>(now.closest_point);
   const bool distances = now.name != MethodName::gjk_boolean && now.name != MethodName::closed_form;
+  const bool takes_over = now.name == MethodName::mpr || now.name == MethodName::sat || now.name == MethodName::projections;
+  if (takes_over) {
+    ImGui::PushFont(theme.small);
+    wrapped("Where GJK and EPA take over from it:", theme.palette.text_faint);
+    ImGui::PopFont();
+  }
   if (distances && choice(theme, "closest point", part, closest_point_names, {0, 1, 2})) next.method.closest_point = static_cast<ClosestPoint>(part), edited = true;
   if (distances && start(theme, now, next)) edited = true;
   int directions = static_cast<int>(now.acceleration), rule = static_cast<int>(now.stopping), deep = static_cast<int>(now.penetration);
@@ -328,7 +334,7 @@ void scene_panel(App& app) {
   if (!next.scene.description.empty()) {
     ImGui::PushFont(theme.small);
     ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
-    ImGui::TextWrapped("%s", next.scene.description.c_str());
+    ImGui::TextWrapped("%s%s", app.session.can_undo() ? "Edited. As it was opened: " : "", next.scene.description.c_str());
     if (!next.scene.source.empty()) {
       ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_faint));
       ImGui::TextWrapped("Source: %s", next.scene.source.c_str());
@@ -341,7 +347,7 @@ void scene_panel(App& app) {
   bool edited = false;
   const double size = std::max(1e-300, std::min(app.world_camera.radius, 1e12));
   const int bodies = static_cast<int>(std::min<std::size_t>(next.scene.bodies.size(), 12));
-  for (int i = 0; i < bodies; ++i) edited |= body(theme, next.scene.bodies[static_cast<std::size_t>(i)], i, next.scene.dimension, size);
+  for (int i = 0; i < bodies; ++i) edited |= body(theme, next.scene.bodies[static_cast<std::size_t>(i)], i, letter_colour(app, i), next.scene.dimension, size);
   if (next.scene.motion) edited |= add_body(next);
   edited |= method(app, next);
   if (edited) {

@@ -151,9 +151,9 @@ void faces(App& app) {
   if (!frame.added.empty() && !frame.removed.empty()) number_row(theme, "removed / added", std::to_string(frame.removed.size()) + " / " + std::to_string(frame.added.size()), theme.palette.frontier);
   if (frame.chosen && frame.faces.contains(*frame.chosen)) {
     const FrameFace& f = frame.faces.at(*frame.chosen);
-    number_row(app, ("nearest " + facet).c_str(), "#" + std::to_string(f.face), theme.palette.chosen, f.event);
-    number_row(app, "its distance", short_number(f.distance), theme.palette.chosen, f.event);
-    number_row(app, "its normal", short_vector(f.normal), theme.palette.chosen, f.event);
+    number_row(app, (foreign(app.session.recording()) ? facet + " chosen" : "nearest " + facet).c_str(), std::to_string(f.face), theme.palette.chosen, f.event);
+    number_row(app, "its distance", f.distance, theme.palette.chosen, f.event);
+    number_row(app, "its normal", f.normal, theme.palette.chosen, f.event);
   }
 }
 
@@ -164,11 +164,14 @@ void bounds(App& app) {
   const Event& event = app.session.recording().events[app.session.step()];
   const bool before = std::holds_alternative<recorded::SupportQueried>(event) || std::holds_alternative<recorded::PolytopeSeeded>(event) || std::holds_alternative<recorded::FaceChosen>(event);
   section(theme, (std::string(mesh_parts(app.session.recording(), app.session.step()) ? "DISTANCE TO THE TRIANGLE" : "SIGNED DISTANCE") + (before ? ", BEFORE THIS STEP" : "")).c_str());
-  const auto text = [](const std::optional<double>& x) { return x ? short_number(*x) : std::string("unknown"); };
+  const auto row = [&](const char* label, const std::optional<double>& x, std::optional<std::size_t> source) {
+    if (x) number_row(app, label, *x, theme.palette.text, source);
+    else number_row(app, label, "unknown", theme.palette.text, source);
+  };
   const auto from = last_of<recorded::SimplexReduced, recorded::GjkEnded, recorded::PolytopeGrown, recorded::PortalFound, recorded::AxisTested, recorded::PointsProjected, recorded::ProjectionsEnded, recorded::ClosedFormEnded>(app.session);
-  number_row(app, "at most", text(frame.upper_bound), theme.palette.text, from);
-  number_row(app, "at least", text(frame.lower_bound), theme.palette.text, from);
-  if (frame.lower_bound && frame.upper_bound) number_row(theme, "gap", short_number(*frame.upper_bound - *frame.lower_bound), theme.palette.text_soft);
+  row("at most", frame.upper_bound, from);
+  row("at least", frame.lower_bound, from);
+  if (frame.lower_bound && frame.upper_bound) number_row(app, "gap", *frame.upper_bound - *frame.lower_bound, theme.palette.text_soft);
 }
 
 void algorithm(App& app) {
@@ -205,9 +208,9 @@ void vertex(App& app) {
   const FrameVertex& v = frame.vertices.at(*number);
   const std::string letter = simplex_letter(frame, *number, app.settings.newest_first);
   section(theme, ("VERTEX #" + std::to_string(*number) + (letter.empty() ? "" : " (" + letter + ")") + (app.settings.selected ? ", selected" : ", newest")).c_str());
-  number_row(app, "w = a - b", short_vector(v.w), theme.palette.text, v.event);
-  number_row(app, "a", short_vector(v.a), theme.palette.body_a, v.event);
-  number_row(app, "b", short_vector(v.b), theme.palette.body_b, v.event);
+  number_row(app, "w = a - b", v.w, theme.palette.text, v.event);
+  number_row(app, "a", v.a, theme.palette.body_a, v.event);
+  number_row(app, "b", v.b, theme.palette.body_b, v.event);
   if (ImGui::SmallButton(("from step " + std::to_string(v.event)).c_str())) app.session.go_to(v.event);
 }
 
@@ -227,19 +230,19 @@ void answer(App& app) {
   const Result& r = app.session.recording().result;
   const bool first_hit = app.session.scene().scene.query == Query::cast && r.touching_at;
   section(theme, mesh_parts(app.session.recording(), app.session.step()) ? "RESULT, OF ALL TRIANGLES" : first_hit ? "RESULT: THE FIRST HIT" : "RESULT");
-  if (r.time) number_row(theme, app.session.scene().scene.query == Query::cast ? "apart until" : "time", short_number(*r.time), theme.palette.text);
+  if (r.time) number_row(app, app.session.scene().scene.query == Query::cast ? "apart until" : "time", *r.time, theme.palette.text);
   if (r.touching_at) number_row(theme, "touching at", touching_text(r), theme.palette.text);
-  if (r.energy) number_row(theme, "energy", short_number(*r.energy), theme.palette.text);
+  if (r.energy) number_row(app, "energy", *r.energy, theme.palette.text);
   if (unanswered(r)) {
     number_row(theme, "intersecting", "not known", theme.palette.text_soft);
     number_row(theme, "support calls", std::to_string(r.support_calls), theme.palette.text_soft);
     return;
   }
   number_row(theme, "intersecting", r.intersecting ? "yes" : "no", r.intersecting ? theme.palette.chosen : theme.palette.support);
-  if (r.signed_distance) number_row(app, "signed distance", short_number(*r.signed_distance), theme.palette.text, last_of<recorded::GjkEnded, recorded::EpaEnded, recorded::MprEnded, recorded::SatEnded, recorded::ClosedFormEnded, recorded::ProjectionsEnded>(app.session));
-  if (r.normal) number_row(theme, "normal", short_vector(*r.normal), theme.palette.text);
-  if (r.witness_a) number_row(theme, "witness a", short_vector(*r.witness_a), theme.palette.body_a);
-  if (r.witness_b) number_row(theme, "witness b", short_vector(*r.witness_b), theme.palette.body_b);
+  if (r.signed_distance) number_row(app, "signed distance", *r.signed_distance, theme.palette.text, last_of<recorded::GjkEnded, recorded::EpaEnded, recorded::MprEnded, recorded::SatEnded, recorded::ClosedFormEnded, recorded::ProjectionsEnded>(app.session));
+  if (r.normal) number_row(app, "normal", *r.normal, theme.palette.text);
+  if (r.witness_a) number_row(app, "witness a", *r.witness_a, theme.palette.body_a);
+  if (r.witness_b) number_row(app, "witness b", *r.witness_b, theme.palette.body_b);
   if (r.contacts) number_row(theme, "contact points", std::to_string(r.contacts->size()), theme.palette.chosen);
   number_row(theme, "support calls", std::to_string(r.support_calls), theme.palette.text_soft);
 }

@@ -75,12 +75,6 @@ void turn(Body& body, const ViewPoint& axis, double angle, int dimension) {
   body.pose.matrix = resolve(body.pose.rotation, dimension).matrix;
 }
 
-/// Of the two that are looked at their own, of the others none.
-Colour letter_colour(App& app, int body) {
-  const auto& pair = app.session.frame().pair;
-  return body == pair[0] ? app.theme.palette.body_a : body == pair[1] ? app.theme.palette.body_b : app.theme.palette.text_soft;
-}
-
 /// A ring in each body's middle: dragging it moves the body in the picture's plane; the disc beside it turns it.
 void body_handles(App& app, const Projection& projection, ImDrawList* draw, Held& held) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
@@ -123,8 +117,10 @@ void body_handles(App& app, const Projection& projection, ImDrawList* draw, Held
 void body_letters(App& app, const Projection& projection) {
   const auto& places = app.session.frame().places;
   for (int i = 0; i < static_cast<int>(places.size()); ++i) {
-    const ImVec2 c = at(projection(to_view(places[static_cast<std::size_t>(i)].position) + row_offset(i, app.session.meshes().dimension, projection)));
-    ImGui::GetWindowDrawList()->AddText(app.theme.small, app.theme.small->FontSize, {c.x - app.theme.px(4), c.y - app.theme.px(7)}, packed(letter_colour(app, i)), body_letter(i).c_str());
+    const int dimension = app.session.meshes().dimension;
+    const ImVec2 c = at(projection(to_view(places[static_cast<std::size_t>(i)].position) + row_offset(i, dimension, projection)));
+    const Colour colour = dimension == 1 ? app.theme.palette.view : letter_colour(app, i);  // on the line, which has the body's colour
+    ImGui::GetWindowDrawList()->AddText(app.theme.small, app.theme.small->FontSize, {c.x - app.theme.px(4), c.y - app.theme.px(7)}, packed(colour), body_letter(i).c_str());
   }
 }
 
@@ -142,7 +138,7 @@ std::string title_of(App& app, const Shown& shown) {
 }
 
 std::string subtitle_of(App& app, const Shown& shown) {
-  if (shown.other && app.session.step() >= app.session.other().events.size()) return "has ended at step " + std::to_string(app.session.other().events.size() - 1);
+  if (shown.other && app.session.step() != app.session.other_step()) return (app.session.step() > app.session.other_step() ? "has ended at step " : "ends later, at step ") + std::to_string(app.session.other_step());
   if (shown.world) return app.session.meshes().bodies.size() > 2 ? "the bodies; in colour the two that are looked at" : "the two bodies and their supports";
   return app.session.meshes().radius > 0 ? "of the cores; yellow ring: the sum of the radii" : "simplex, direction, support plane, polytope";
 }
@@ -215,6 +211,11 @@ void view_splitter(App& app, const Area& area, bool side_by_side, float whole) {
 }
 
 }  // namespace
+
+Colour letter_colour(App& app, int body) {
+  const auto& pair = app.session.frame().pair;
+  return body == pair[0] ? app.theme.palette.body_a : body == pair[1] ? app.theme.palette.body_b : app.theme.palette.text_soft;
+}
 
 void view_panels(App& app, const Area& area, bool interactive) {
   const float gap = app.theme.px(6);

@@ -26,9 +26,15 @@ struct PseudoCodeOf {
   PseudoCode operator()(const recorded::CastAdvanced& e) const {
     return cast(ray() ? 5 : meets_at(recording, step) ? 3 : e.bound <= 0 ? 5 : 6);
   }
+  /// Else the interval has ended before the next step.
+  bool last_recedes() const {
+    for (std::size_t i = step; i-- > 0;)
+      if (const auto* advanced = std::get_if<recorded::CastAdvanced>(&recording.events[i])) return advanced->bound <= 0;
+    return true;
+  }
   PseudoCode operator()(const recorded::CastEnded& e) const {
     if (e.status == CastStatus::iteration_limit) return cast(no_line);
-    return cast(e.status == CastStatus::miss ? (ray() ? 4 : 5) : ray() ? 7 : 3);
+    return cast(e.status == CastStatus::miss ? (ray() ? 4 : last_recedes() ? 5 : 6) : ray() ? 7 : 3);
   }
 
   PseudoCode moving(int of_response, int of_simulation) const {
@@ -66,7 +72,10 @@ struct PseudoCodeOf {
     return true;
   }
 
-  PseudoCode sat(int line) const { return {"SAT", {"for n in faces of A, faces of B,", "         edge of A x edge of B", "  w = support(n)", "  if n.w < 0: apart", "  depth = min(depth, n.w)", "overlap, depth"}, line}; }
+  PseudoCode sat(int line) const {
+    const bool plane = recording.scene.scene.dimension == 2;
+    return {"SAT", {plane ? "for n in normals of edges of A," : "for n in faces of A, faces of B,", plane ? "         of edges of B" : "         edge of A x edge of B", "  w = support(n)", "  if n.w < 0: apart", "  depth = min(depth, n.w)", "overlap, depth"}, line};
+  }
   PseudoCode operator()(const recorded::SatBegan&) const { return sat(0); }
   PseudoCode operator()(const recorded::AxisTested& e) const { return sat(e.distance > 0 ? 3 : 4); }
   PseudoCode projections(int line) const {
@@ -91,8 +100,8 @@ struct PseudoCodeOf {
   // --- EPA --------------------------------------------------------------------------------------------------------
   PseudoCode epa(int line) const {
     if (recording.scene.scene.dimension == 2)
-      return {"EPA", {"P = simplex, completed to enclose O", "repeat", "  e = edge of P nearest O", "  w = support(normal of e)", "  if w not beyond e: depth = |e|", "  remove the edges w sees", "  join the ends of the gap to w"}, line};
-    return {"EPA", {"P = simplex, completed to enclose O", "repeat", "  f = face of P nearest O", "  w = support(normal of f)", "  if w not beyond f: depth = |f|", "  remove the faces w sees", "  join the horizon to w"}, line};
+      return {"EPA", {"P = simplex, completed to enclose O", "repeat", "  e = edge of P nearest O", "  w = support(normal of e)", rounded(recording.scene.scene) ? "  if w not beyond e: |e| + radii" : "  if w not beyond e: depth = |e|", "  remove the edges w sees", "  join the ends of the gap to w"}, line};
+    return {"EPA", {"P = simplex, completed to enclose O", "repeat", "  f = face of P nearest O", "  w = support(normal of f)", rounded(recording.scene.scene) ? "  if w not beyond f: |f| + radii" : "  if w not beyond f: depth = |f|", "  remove the faces w sees", "  join the horizon to w"}, line};
   }
   PseudoCode operator()(const recorded::PolytopeSeeded&) const { return epa(0); }
   PseudoCode operator()(const recorded::FaceChosen&) const { return epa(2); }
@@ -118,7 +127,7 @@ struct PseudoCodeOf {
     const char* support = settings.name != MethodName::gjk_accelerated ? "  w = support(-v)" : settings.acceleration == Acceleration::newton ? "  w = support(Newton's d or -v)" : "  w = support(momentum's d or -v)";
     return {foreign(recording) ? "GJK, distance form; yours may differ" : "GJK, distance form",
             {settings.start == Start::previous ? "W = last simplex, or { support(d) }" : "w = support(d);  W = { w }", "repeat", "  v = point of W nearest O", "  W = the part of W that holds v",
-             yes_or_no ? "  if |v| <= radii: overlap" : "  if v = O: overlap", support, yes_or_no ? "  if w short of O: apart" : "  if w no nearer O: distance |v|", "  W = { w } + W"},
+             yes_or_no ? "  if |v| <= radii: overlap" : "  if v = O: overlap", support, yes_or_no ? "  if w short of O: apart" : rounded(recording.scene.scene) ? "  if w no nearer O: |v| - radii" : "  if w no nearer O: distance |v|", "  W = { w } + W"},
             line};
   }
   PseudoCode operator()(const recorded::GjkBegan&) const { return gjk(0); }

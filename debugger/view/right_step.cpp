@@ -46,7 +46,9 @@ struct RightStep {
     for (const auto& [number, face] : frame.faces)
       if (!best || face.distance < best->distance) best = &face;
     if (!best) return {};
-    return "Choose " + facet_name(recording) + " #" + std::to_string(best->face) + ", the nearest, at " + short_number(best->distance) + ", and ask along " + short_vector(best->normal) + ".";
+    std::string vertices;
+    for (const int v : best->vertices) vertices += " #" + std::to_string(v);
+    return "Choose " + facet_name(recording) + " " + std::to_string(best->face) + " (vertices" + vertices + "), the nearest, at " + short_number(best->distance) + ", and ask along " + short_vector(best->normal) + ".";
   }
 
   template <class Other>

@@ -69,8 +69,9 @@ class Session {
   const Recording& other() const { return other_; }
   const std::string& other_title() const { return other_title_; }
   const SceneMeshes& other_meshes() const { return other_meshes_; }
-  /// The other run's frame at this step, or at its last.
-  const Frame& other_frame() { return other_replay_->at(std::min(step_, other_.events.size() - 1)); }
+  /// Which of the other run's steps is beside this one: the same, or its last; beside the last of this run its last, however long it is.
+  std::size_t other_step() const { return step_ + 1 == count() ? other_.events.size() - 1 : std::min(step_, other_.events.size() - 1); }
+  const Frame& other_frame() { return other_replay_->at(other_step()); }
   /// Where the two part, if they do.
   const std::optional<Difference>& parting() const { return parting_; }
 

@@ -87,7 +87,7 @@ void beside_note(App& app) {
   if (!s.comparing()) return;
   const Theme& theme = app.theme;
   section(theme, ("BESIDE IT: " + s.other_title()).c_str());
-  const std::size_t k = std::min(s.step(), s.other().events.size() - 1);
+  const std::size_t k = s.other_step();
   ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
   ImGui::TextWrapped("%s: %s", short_kind(s.other().events[k]), summary(s.other(), k).c_str());
   ImGui::PopStyleColor();

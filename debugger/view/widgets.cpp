@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "debugger/view/app.h"
 #include "debugger/view/explain.h"
@@ -59,15 +60,38 @@ void number_row(const Theme& theme, const char* label, const std::string& value,
   ImGui::PopFont();
 }
 
-void number_row(App& app, const char* label, const std::string& value, Colour colour, std::optional<std::size_t> source) {
+void number_row(App& app, const char* label, const std::string& value, Colour colour, std::optional<std::size_t> source, const std::string& exact) {
   number_row(app.theme, label, value, colour);
-  if (!source || *source >= app.session.count()) return;
+  if (source && *source >= app.session.count()) source.reset();
+  if ((!source && exact.empty()) || !ImGui::IsItemHovered()) return;
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-  if (!ImGui::IsItemHovered()) return;
-  ImGui::GetWindowDrawList()->AddLine({low.x, high.y}, {high.x, high.y}, packed(colour), 1);
-  ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
-  ImGui::SetTooltip("from step %zu: click to go there", *source);
-  if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) app.session.playing = false, app.session.go_to(*source);
+  std::string tip = exact.empty() ? "" : exact + "\nright click: copy";
+  if (source) {
+    ImGui::GetWindowDrawList()->AddLine({low.x, high.y}, {high.x, high.y}, packed(colour), 1);
+    ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    tip += (tip.empty() ? "" : "\n") + ("from step " + std::to_string(*source)) + ": click to go there";
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) app.session.playing = false, app.session.go_to(*source);
+  }
+  if (!exact.empty() && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) ImGui::SetClipboardText(exact.c_str());
+  ImGui::SetTooltip("%s", tip.c_str());
+}
+
+namespace {
+
+std::string all_digits(double x) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.17g", x);
+  return text;
+}
+
+}  // namespace
+
+void number_row(App& app, const char* label, double value, Colour colour, std::optional<std::size_t> source) { number_row(app, label, short_number(value), colour, source, all_digits(value)); }
+
+void number_row(App& app, const char* label, const AnyVector& value, Colour colour, std::optional<std::size_t> source) {
+  std::string exact;
+  for (const double x : value) exact += (exact.empty() ? "(" : ", ") + all_digits(x);
+  number_row(app, label, short_vector(value), colour, source, exact + ")");
 }
 
 bool tab_button(const Theme& theme, const char* name, bool current, float width) {
