@@ -48,6 +48,8 @@ BUGS = [
     ("reported normal flipped", "box-box-deep", [("normal=normal, distance=distance)", "normal=scaled(-1, normal), distance=distance)")], "flipped-face-normal"),
     ("start without the origin", "ellipsoid-sphere-deep", [("    inside = combine(", "    points = [support(d) for d in ([1.0, 0.1, 0.2], [1.0, 1.0, 0.1], [0.2, 1.0, 1.0], [1.0, 0.3, -1.0])]\n    inside = combine(")], "any:origin-outside-polytope"),
     ("EPA stops at once", "obb-shallow", [("if height - distance <= max", "if True or height - distance <= max"), ("return height, normal, combine", "return distance, normal, combine")], "stopped-early"),
+    ("EPA asks along the normal of the round before", "box-box-deep", [("w = support(normal)", "w = support(getattr(support, 'last', normal)); support.last = normal")], "direction-not-perpendicular"),
+    ("EPA asks towards the middle of the face", "obb-shallow", [("w = support(normal)", "w = support([sum(x.w[i] for x in face) / len(face) for i in range(dimension)])")], "direction-not-perpendicular"),
     ("EPA asks the way back", "2d-deep", [("w = support(normal)", "w = support(scaled(-1, normal))")], "direction-away-from-origin"),
     ("EPA goes on at the boundary", "2d-deep", [("if height - distance <= max(tolerance * height, rounding) or known or len(faces) > 600:", "if len(faces) > 9:"),
                                                 ("> f[2] + rounding]", "> f[2] + rounding] or [next(f for f in faces if f[0] is face)]")], "no-progress"),

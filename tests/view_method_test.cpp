@@ -243,6 +243,44 @@ TEST_F(Words, SayInSteps) {
   host.frame();
 }
 
+/// However long the run beside it is: at the end of this one its end.
+TEST_F(Words, TheRunBesideEndsWithThisOne) {
+  SceneFile next = session.scene();
+  next.method.max_iterations = 2;
+  ASSERT_EQ(session.edit(next), "");
+  ASSERT_EQ(session.compare_with(Method{}, "to the end"), "");
+  ASSERT_GT(session.other().events.size(), session.count());
+  session.go_to(1);
+  EXPECT_EQ(session.other_step(), 1u);
+  session.go_to(last());
+  EXPECT_EQ(session.other_frame().step, session.other().events.size() - 1);
+  host.frame();
+}
+
+TEST_F(Words, AreOfThePairThatIsLookedAt) {
+  app.open_gallery("sim-stack-of-five");
+  for (std::size_t i = 0; i < session.count(); ++i) {
+    session.go_to(i);
+    if (session.frame().pair != std::array{1, 2} || !std::holds_alternative<recorded::SupportQueried>(session.recording().events[i])) continue;
+    const std::string text = explain(session.recording(), session.frame()).text;
+    EXPECT_NE(text.find("farthest point of B - C"), std::string::npos) << text;
+    return;
+  }
+  FAIL() << "no such step";
+}
+
+/// What GJK and EPA measure is the cores' distance or depth: the sentences say what becomes of it.
+TEST_F(Words, TellTheCoresFromTheBodies) {
+  app.open_gallery("sphere-in-box");
+  session.go_to(session.count() - 1);
+  EXPECT_NE(explain(session.recording(), session.frame()).text.find("0.6 of the cores, with the radii, 0.5 together, is the depth. Moving B by 1.1"), std::string::npos);
+  app.open_gallery("margin-boxes");
+  session.go_to(session.count() - 1);
+  const std::string text = explain(session.recording(), session.frame()).text;
+  EXPECT_NE(text.find("|v| = 0.25 between the cores, less the radii, 0.2 together"), std::string::npos) << text;
+  EXPECT_FALSE(session.frame().barycentric.empty()) << "the weights that make the witnesses stay";
+}
+
 TEST_F(Words, OfARefusedNumberAreThePanels) {
   SceneFile next = session.scene();
   next.method.tolerance = 7;

@@ -347,5 +347,40 @@ TEST(EdgeCases, WeightsOfASliverThatIsOnlyCalledEnclosing) {
   EXPECT_LE(made.norm(), 1e-12);
 }
 
+/// Short of the origin, or beyond it: a portal at the limit says neither, and was taken for an overlap.
+TEST(EdgeCases, MprAtItsLimitClaimsNoMoreThanItHasProven) {
+  RandomScenes random(4);
+  int undecided = 0;
+  for (int i = 0; i < pairs_asked(3000); ++i) {
+    Scene pair = random.scene(2 + i % 2, Family::general, i % 4 < 2);
+    const Result truth = run(pair, {});
+    Method m;
+    m.name = MethodName::mpr;
+    for (m.max_iterations = 1; *m.max_iterations <= 6; ++*m.max_iterations)
+      for (const Query query : {Query::intersect, Query::distance, Query::penetration}) {
+        pair.query = query;
+        const Result r = run(pair, m);
+        undecided += unanswered(r);
+        if (!unanswered(r) && std::abs(*truth.signed_distance) > 1e-6) {
+          EXPECT_EQ(r.intersecting, truth.intersecting) << i << " limit " << *m.max_iterations;
+        }
+        if (!r.lower_bound || !r.upper_bound) continue;
+        const double right = query == Query::distance ? std::max(0.0, *truth.signed_distance) : *truth.signed_distance;
+        EXPECT_LE(*r.lower_bound, right + 1e-9) << i;
+        EXPECT_GE(*r.upper_bound, right - 1e-9) << i;
+      }
+  }
+  EXPECT_GT(undecided, 0);
+}
+
+/// Where the origin's projection lies beside the face that is the answer, the points of the face are off the bodies: by 1.6e-5 here, once.
+TEST(EdgeCases, WitnessesOfCurvedBodiesLieOnThem) {
+  for (const char* radii : {"2.718805920765648, 2.67978875828775", "1.1, 0.9", "0.7, 2.9"}) {
+    const Result r = run(scene_of(R"("dimension": 2, "query": "penetration", "bodies": [{"shape": {"type": "ellipse", "radii": [)" + std::string(radii) + R"(]}}, {"shape": {"type": "point", "points": [[0, 0]]}}])"), {});
+    EXPECT_LT(r.witness_b->norm(), 1e-9) << radii;
+    EXPECT_NEAR(r.witness_a->norm(), -*r.signed_distance, 1e-9) << radii;
+  }
+}
+
 }  // namespace
 }  // namespace gjkdbg
