@@ -23,6 +23,7 @@ class DifferencePainter : public Painter {
     polytope();
     portal();
     parallelogram();
+    ray();
     fading();
     simplex();
     bound_rings();
@@ -129,6 +130,25 @@ class DifferencePainter : public Painter {
     for (const int v : frame_.portal)
       if (const FrameVertex* p = vertex(v)) picture_.line(inside, to_view(p->w), palette_.chosen.with_alpha(0.5), 1.3);
     face({-1, 0, frame_.portal, {}, 0}, palette_.chosen, 0.4, 2.6);
+  }
+
+  /// A ray cast: as the bodies move the origin goes along r = v_B - v_A in the difference of the bodies where they began, and x is how far it surely gets.
+  void ray() {
+    const auto* query = std::get_if<recorded::SupportQueried>(&recording_.events[frame_.step]);
+    const auto at = [&](int i) { return static_cast<std::size_t>(frame_.pair[static_cast<std::size_t>(i)]); };
+    if (!query || query->phase != Phase::cast || std::max(at(0), at(1)) >= frame_.places.size()) return;
+    const ViewPoint r = to_view(frame_.places[at(1)].velocity) - to_view(frame_.places[at(0)].velocity);
+    double clipped = 0;
+    for (std::size_t i = frame_.step; i-- > 0 && !std::holds_alternative<recorded::CastBegan>(recording_.events[i]) && !std::holds_alternative<recorded::State>(recording_.events[i]);)
+      if (const auto* advanced = std::get_if<recorded::CastAdvanced>(&recording_.events[i])) {
+        if (advanced->pair == frame_.pair && advanced->bound > 0) clipped = advanced->time + advanced->distance / advanced->bound;
+        break;
+      }
+    if (r.isZero(0) || !(clipped <= 1)) return;
+    picture_.lines.push_back({ViewPoint::Zero(), r, palette_.text_soft, 1.6, Stroke::dashed, true, true});
+    picture_.points.push_back({clipped * r, palette_.chosen, 8, Mark::ring, -1});
+    label(clipped * r, "x", palette_.chosen, -12, 10);
+    label(r, "r", palette_.text_soft);
   }
 
   /// The difference of two segments, by the corner and the two edges of the formula.

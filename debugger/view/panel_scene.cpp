@@ -155,10 +155,21 @@ bool body(const Theme& theme, Body& b, int index, Colour colour, int dimension, 
   return edited;
 }
 
-template <class Names>
-bool choice(const Theme& theme, const char* label, int& value, const Names& names, const std::vector<int>& offered) {
+/// Pointing at it tells what the setting does.
+void setting_label(const Theme& theme, const char* label, const char* meaning) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextColored(vec(theme.palette.text_soft), "%s", label);
+  if (!ImGui::IsItemHovered()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(theme.px(320));
+  ImGui::TextUnformatted(meaning);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+template <class Names>
+bool choice(const Theme& theme, const char* label, int& value, const Names& names, const std::vector<int>& offered, const char* meaning) {
+  setting_label(theme, label, meaning);
   ImGui::SameLine(theme.px(100));
   ImGui::SetNextItemWidth(-1);
   bool edited = false;
@@ -192,7 +203,7 @@ bool start(const Theme& theme, const Settings& now, SceneFile& next) {
   const bool gjk = now.name == MethodName::gjk || now.name == MethodName::gjk_accelerated;
   int value = static_cast<int>(now.start);
   bool edited = false;
-  if (choice(theme, "start", value, start_names, gjk ? std::vector<int>{0, 1, 2} : std::vector<int>{0, 1})) {
+  if (choice(theme, "start", value, start_names, gjk ? std::vector<int>{0, 1, 2} : std::vector<int>{0, 1}, "Where the search begins: from one body's centre towards the other's, along a direction of yours, or from the simplex the last run ended with.")) {
     next.method.start = static_cast<Start>(value), edited = true;
     next.method.initial_simplex.clear(), next.method.initial_direction.reset();
     if (next.method.start == Start::given) next.method.initial_direction = AnyVector(AnyVector::Unit(next.scene.dimension, 0));
@@ -206,15 +217,16 @@ bool start(const Theme& theme, const Settings& now, SceneFile& next) {
 bool method(App& app, SceneFile& next) {
   const Theme& theme = app.theme;
   const Settings& now = app.session.recording().settings;
+  static constexpr const char* query_meaning = "The least the scene needs: yes or no, how far apart, how deep as well, or the contact points too. Nothing beyond it is computed.";
   section(theme, "METHOD");
   bool edited = false;
   int query = static_cast<int>(next.scene.query), scalar = static_cast<int>(now.scalar);
   int name = static_cast<int>(next.method.name == MethodName::fastest ? MethodName::fastest : now.name);
-  if ((next.scene.motion ? choice(theme, "query", query, query_names, {query}) : choice(theme, "query", query, query_names, {0, 1, 2, 3}))) {
+  if ((next.scene.motion ? choice(theme, "query", query, query_names, {query}, query_meaning) : choice(theme, "query", query, query_names, {0, 1, 2, 3}, query_meaning))) {
     next.scene.query = static_cast<Query>(query), edited = true;
     if (query != 0 && now.name == MethodName::gjk_boolean) next.method.name = MethodName::gjk;
   }
-  if (choice(theme, "method", name, method_names, possible_methods(next))) change_name(next.method, static_cast<MethodName>(name)), edited = true;
+  if (choice(theme, "method", name, method_names, possible_methods(next), "The algorithm: those that take these bodies and answer this query.")) change_name(next.method, static_cast<MethodName>(name)), edited = true;
   int part = static_cast<int>(now.closest_point);
   const bool distances = now.name != MethodName::gjk_boolean && now.name != MethodName::closed_form;
   const bool takes_over = now.name == MethodName::mpr || now.name == MethodName::sat || now.name == MethodName::projections;
@@ -223,16 +235,15 @@ bool method(App& app, SceneFile& next) {
     wrapped("Where GJK and EPA take over from it:", theme.palette.text_faint);
     ImGui::PopFont();
   }
-  if (distances && choice(theme, "closest point", part, closest_point_names, {0, 1, 2})) next.method.closest_point = static_cast<ClosestPoint>(part), edited = true;
+  if (distances && choice(theme, "closest point", part, closest_point_names, {0, 1, 2}, "How GJK finds the simplex's point nearest the origin: by signed volumes, by Johnson's determinants, or by going through the Voronoi regions of its parts.")) next.method.closest_point = static_cast<ClosestPoint>(part), edited = true;
   if (distances && start(theme, now, next)) edited = true;
   int directions = static_cast<int>(now.acceleration), rule = static_cast<int>(now.stopping), deep = static_cast<int>(now.penetration);
-  if (now.name == MethodName::gjk_accelerated && choice(theme, "directions", directions, acceleration_names, {0, 1, 2})) next.method.acceleration = static_cast<Acceleration>(directions), edited = true;
-  if (distances && choice(theme, "stopping", rule, stopping_names, {0, 1, 2, 3, 4})) next.method.stopping = static_cast<Stopping>(rule), edited = true;
-  if (distances && (query == 2 || query == 3) && choice(theme, "when deep", deep, penetration_names, {0, 1, 2})) next.method.penetration = static_cast<Penetration>(deep), edited = true;
-  if (choice(theme, "scalar", scalar, scalar_names, {0, 1})) next.method.scalar = static_cast<Scalar>(scalar), next.method.tolerance.reset(), edited = true;
+  if (now.name == MethodName::gjk_accelerated && choice(theme, "directions", directions, acceleration_names, {0, 1, 2}, "What replaces the direction -v: a momentum (Nesterov's or Polyak's), or Newton's step by the curvature of the bodies.")) next.method.acceleration = static_cast<Acceleration>(directions), edited = true;
+  if (distances && choice(theme, "stopping", rule, stopping_names, {0, 1, 2, 3, 4}, "When GJK is done: when the bounds of the distance meet (ours), or by the rule of another implementation, which may stop early.")) next.method.stopping = static_cast<Stopping>(rule), edited = true;
+  if (distances && (query == 2 || query == 3) && choice(theme, "when deep", deep, penetration_names, {0, 1, 2}, "What measures the depth of an overlap: EPA, the shortest way out; MPR, a way out in one direction; or nothing.")) next.method.penetration = static_cast<Penetration>(deep), edited = true;
+  if (choice(theme, "scalar", scalar, scalar_names, {0, 1}, "What is counted in: double has 16 digits, float 7.")) next.method.scalar = static_cast<Scalar>(scalar), next.method.tolerance.reset(), edited = true;
   if (now.name == MethodName::closed_form) return edited;  // a formula neither converges nor iterates
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextColored(vec(theme.palette.text_soft), "tolerance");
+  setting_label(theme, "tolerance", "How far apart the bounds may be at the end, as a share of the distance or depth.");
   ImGui::SameLine(theme.px(100));
   ImGui::SetNextItemWidth(-1);
   ImGui::PushFont(theme.mono);
@@ -240,8 +251,7 @@ bool method(App& app, SceneFile& next) {
   if (ImGui::InputDouble("##tolerance", &tolerance, 0, 0, "%.3g", ImGuiInputTextFlags_EnterReturnsTrue)) next.method.tolerance = tolerance, edited = true;
   ImGui::PopFont();
   int limit = now.max_iterations;
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextColored(vec(theme.palette.text_soft), "max iterations");
+  setting_label(theme, "max iterations", "Where each of GJK, EPA and the others gives up, and says so.");
   ImGui::SameLine(theme.px(100));
   ImGui::SetNextItemWidth(-1);
   if (ImGui::InputInt("##limit", &limit, 0, 0, ImGuiInputTextFlags_EnterReturnsTrue)) next.method.max_iterations = std::max(1, limit), edited = true;

@@ -250,6 +250,7 @@ void event_list(App& app, float width, float height) {
       const Event& event = s.recording().events[k];
       ImGui::PushID(i);
       if (ImGui::Selectable("##row", s.step() == k)) s.playing = false, s.go_to(k);
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s: %s", short_kind(event), summary(s.recording(), k).c_str());  // a row may be cut off
       ImGui::SameLine(theme.px(8));
       ImGui::TextColored(vec(theme.palette.text_faint), "%4d", i);
       const ImVec2 at = ImGui::GetItemRectMax();

@@ -164,7 +164,12 @@ void interact(App& app, const Area& area, const Shown& shown, Camera& camera, co
   if (!ImGui::IsItemHovered()) return;
   const auto under = vertex_under(items, ImGui::GetIO().MousePos, theme.px(11));
   pointed = under;
-  if (under) ImGui::SetTooltip("vertex #%d: click to select", *under);
+  if (const auto found = under ? app.session.frame().vertices.find(*under) : app.session.frame().vertices.end(); found != app.session.frame().vertices.end() && !shown.other) {
+    const FrameVertex& v = found->second;
+    ImGui::SetTooltip("vertex #%d\nw = %s\na = %s\nb = %s\nclick to select", *under, short_vector(v.w).c_str(), short_vector(v.a).c_str(), short_vector(v.b).c_str());
+  } else if (under) {
+    ImGui::SetTooltip("vertex #%d: click to select", *under);
+  }
   const ImVec2 drag = ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 0);
   if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && std::hypot(drag.x, drag.y) < 3) app.settings.selected = under;
   if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) app.fit_views();
