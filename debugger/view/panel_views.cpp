@@ -139,6 +139,7 @@ std::string title_of(App& app, const Shown& shown) {
 
 std::string subtitle_of(App& app, const Shown& shown) {
   if (shown.other && app.session.step() != app.session.other_step()) return (app.session.step() > app.session.other_step() ? "has ended at step " : "ends later, at step ") + std::to_string(app.session.other_step());
+  if (shown.world && app.session.meshes().bodies.size() < 2) return "a body alone";
   if (shown.world) return app.session.meshes().bodies.size() > 2 ? "the bodies; in colour the two that are looked at" : "the two bodies and their supports";
   return app.session.meshes().radius > 0 ? "of the cores; yellow ring: the sum of the radii" : "simplex, direction, support plane, polytope";
 }
@@ -226,15 +227,16 @@ void view_panels(App& app, const Area& area, bool interactive) {
   const float gap = app.theme.px(6);
   const Layout layout = app.preferences.layout;
   std::optional<int> pointed;
-  const bool two = layout == Layout::both || layout == Layout::stacked || app.session.comparing();
+  const bool alone = app.session.meshes().bodies.size() < 2;  // a body that only moves: there is no difference
+  const bool worlds = alone || layout == Layout::world, two = app.session.comparing() || (!alone && (layout == Layout::both || layout == Layout::stacked));
   if (!two) {
-    one_view(app, area, {layout == Layout::world, false}, interactive, pointed);
+    one_view(app, area, {worlds, false}, interactive, pointed);
     app.settings.pointed = pointed;
     return;
   }
   // Compared runs are shown by their differences, or by the world where that alone is chosen.
-  const Shown first{app.session.comparing() ? layout == Layout::world : true, false};
-  const Shown second{app.session.comparing() && layout == Layout::world, app.session.comparing()};
+  const Shown first{app.session.comparing() ? worlds : true, false};
+  const Shown second{app.session.comparing() && worlds, app.session.comparing()};
   const float share = interactive ? app.preferences.split : 0.5f;
   if (layout != Layout::stacked) {
     const float left = (area.width - gap) * share;
