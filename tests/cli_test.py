@@ -246,6 +246,10 @@ class Program(unittest.TestCase):
         link.symlink_to(target)
         self.assertEqual(run("dump", self.scene, "-o", link).returncode, 0)
         self.assertTrue(link.is_symlink())
+        dangling = self.path / "dangling.json"
+        dangling.symlink_to("made.json")
+        self.assertEqual(run("dump", self.scene, "-o", dangling).returncode, 0)
+        self.assertTrue(dangling.is_symlink() and (self.path / "made.json").is_file())
         self.assertEqual((json.loads(target.read_text())["format"], target.stat().st_mode & 0o777), ("gjk-recording", 0o600))
         self.assertEqual(json.loads(run("dump", self.scene, "-o", "/dev/stdout").stdout)["format"], "gjk-recording")  # a link to a pipe
 

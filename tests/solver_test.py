@@ -245,6 +245,12 @@ class Solver(unittest.TestCase):
             broken = subprocess.run([PROGRAM, "sweep", "2d-deep", "2d-deep", "--exec", "exit 3", "-o", folder], capture_output=True, text=True)
             self.assertEqual((broken.returncode, broken.stderr), (1, ""))
             self.assertEqual(sorted(f.name for f in pathlib.Path(folder).glob("2d-*")), ["2d-deep-2.scene.json", "2d-deep.scene.json"])
+            # A scene without a name goes by its file's.
+            nameless = pathlib.Path(folder, "nameless.scene.json")
+            scene = json.loads((ROOT / "recordings/gallery/2d-deep.scene.json").read_text())
+            del scene["name"]
+            nameless.write_text(json.dumps(scene))
+            self.assertRegex(subprocess.run([PROGRAM, "sweep", nameless, "--exec", "exit 3"], capture_output=True, text=True).stdout, "^nameless +crash")
 
     def test_a_program_that_is_not_there(self):
         findings = self.run_kit("box-box-deep", "/nonexistent/program 2>/dev/null")

@@ -42,9 +42,9 @@ OutputFile::OutputFile(const std::string& path) {
   // A device or a pipe is written in place: nothing can take its place.
   const bool special = std::filesystem::exists(target_, ignored) && !std::filesystem::is_regular_file(target_, ignored);
   if (!special) {
-    // A link stays: what it points to is what gets replaced.
+    // A link stays: what it points to is what gets replaced, or made.
     std::error_code broken;
-    if (const auto real = std::filesystem::canonical(target_, broken); !broken) target_ = real;
+    for (int links = 0; links < 40 && std::filesystem::is_symlink(target_, broken); ++links) target_ = target_.parent_path() / std::filesystem::read_symlink(target_, broken);
     temporary_ = target_;
     temporary_ += ".part" + std::to_string(getpid());
   }

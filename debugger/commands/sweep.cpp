@@ -148,6 +148,7 @@ struct Sweep {
     for (const std::string& scene : scenes) {
       const std::string file = scene_path(scene).string();
       read.push_back(read_scene(file));
+      if (std::string& name = read.back().scene.name; name.empty()) name = std::filesystem::path(file).stem().stem().string();
       try {
         if (suits(read.back())) settings_of(read.back());
       } catch (const Error& e) {
