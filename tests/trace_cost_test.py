@@ -45,6 +45,7 @@ def compiled(compiler, tree, source, output):
 
 
 def linked(compiler, libraries, objects, program):
+    """Of templates that several objects have, the first object's count: the driver, the same for both programs, comes last."""
     subprocess.run([compiler, *objects, *libraries, "-lqhull_r", "-ltinyobjloader", "-lgmpxx", "-lgmp", "-o", str(program)], check=True)
     return program
 
@@ -71,7 +72,7 @@ def main():
         if deleted < 20:
             sys.exit(f"only {deleted} trace lines were found to delete: the test no longer knows them")
         driver = compiled(compiler, ROOT, "driver.cpp", folder / "driver.o")
-        as_it_is, bare = (linked(compiler, libraries, [driver, compiled(compiler, tree, "untraced.cpp", folder / f"{name}.o")], folder / name)
+        as_it_is, bare = (linked(compiler, libraries, [compiled(compiler, tree, "untraced.cpp", folder / f"{name}.o"), driver], folder / name)
                           for tree, name in ((ROOT, "as_it_is"), (folder, "bare")))
         with_lines, without = instructions(as_it_is, folder), instructions(bare, folder)
         if without < 1_000_000:
