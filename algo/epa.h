@@ -290,8 +290,7 @@ class Epa {
     const V& n = result_.normal;
     result_.point_a += n * (reach_a_ - n.dot(result_.point_a));
     result_.point_b += n * (reach_a_ - best_height_ - n.dot(result_.point_b));
-    // Where the origin's projection lies beside the face, they are off across the normal too; so are the points of the support. What is off by less is
-    // nearer to where the boundary's tangent plane touches, and the support's points lie on their bodies.
+    // Where the origin's projection lies beside the face, they are off across the normal too. The points of the support lie on their bodies, and may be off by less.
     const auto off = [&](const V& a, const V& b) { return V(a - b - n * best_height_).norm(); };
     if (off(best_.a, best_.b) < off(result_.point_a, result_.point_b)) result_.point_a = best_.a, result_.point_b = best_.b;
   }

@@ -287,7 +287,7 @@ class Mpr {
   V v0_;
   std::array<Point, D> portal_{};
   int portal_size_ = 1;
-  bool unproven_ = false;  ///< whether the origin is inside
+  bool unproven_ = false;  ///< the search has ended before it was known on which side of the portal the origin lies
   MprStatus status_ = MprStatus::separated;
   MprResult<D, S> result_;
   S leaves_ = 0;

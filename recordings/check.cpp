@@ -152,12 +152,14 @@ std::optional<std::size_t> CheckContext::last_simplex() const {
 void CheckContext::put_causes_first() {
   static constexpr std::pair<std::string_view, std::string_view> pairs[] = {
       {"unjustified-separation", "stopped-early"}, {"visible-face-kept", "wrong-horizon"}, {"open-polytope", "wrong-horizon"}, {"wrong-face", "not-closest-face"}};
+  const auto holds = [this](std::string_view cause) {
+    if (cause == "unjustified-separation") return !recording.result.signed_distance || *reference().signed_distance <= 0;  // apart they are: the distance is not yet one
+    return cause != "wrong-face" || inferred;  // a solver's faces are known by their vertices, ours by number
+  };
   for (const auto& [cause, shown] : pairs) {
-    if (cause == pairs[0].first && recording.result.signed_distance && *reference().signed_distance > 0) continue;  // apart they are: the distance is not yet one
-    if (cause == pairs[3].first && !inferred) continue;  // by number; a solver's faces are known by their vertices
     const auto of = [&](std::string_view code) { return std::find_if(findings_.begin(), findings_.end(), [&](const Finding& f) { return f.code == code; }); };
     const auto first = of(shown), second = of(cause);
-    if (first != findings_.end() && second != findings_.end() && first < second && first->step == second->step) std::rotate(first, second, second + 1);
+    if (first != findings_.end() && second != findings_.end() && first < second && first->step == second->step && holds(cause)) std::rotate(first, second, second + 1);
   }
 }
 
@@ -170,8 +172,8 @@ std::vector<Finding> CheckContext::take() {
   static const std::set<std::string_view> consequences{"wrong-witness", "wrong-normal",  "wrong-distance",  "wrong-depth", "wrong-answer", "stopped-early", "origin-not-enclosed", "unjustified-separation",
                                                        "cycle",         "no-progress",   "support-limit",   "timeout",     "crash"};
   const bool of_the_last = root->code == std::string_view("origin-not-enclosed") || root->code == std::string_view("wrong-answer");
-  const std::optional<Finding> cause = !of_the_last || (last_suspicion_ && last_suspicion_->step == last_simplex()) ? (of_the_last ? last_suspicion_ : suspicion_) : std::nullopt;
-  if (cause && cause->step < root->step && consequences.contains(root->code) && !seen_.contains(cause->code)) {
+  const std::optional<Finding>& cause = of_the_last ? last_suspicion_ : suspicion_;
+  if (cause && (!of_the_last || cause->step == last_simplex()) && cause->step < root->step && consequences.contains(root->code) && !seen_.contains(cause->code)) {
     findings_.insert(root, *cause);
     std::stable_sort(findings_.begin(), findings_.end(), [](const Finding& x, const Finding& y) { return x.step < y.step; });
     root = std::find_if(findings_.begin(), findings_.end(), is_error);
