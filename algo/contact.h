@@ -4,8 +4,8 @@
 // to its sides (Sutherland, Hodgman 1974), and every corner left that lies behind the reference is a contact point with its own depth (Gregorius, "The
 // Separating Axis Test between Convex Polyhedra", GDC 2013). The end of a cylinder or a cone is a disc: of its outline count the rim's points an eighth of the
 // way around apart, the deepest one first, and those where it meets the other outline. Where no face looks along the normal, lines that lie along
-// one another (capsules or cylinders side by side, an edge on one of them) share a piece, and its two ends are the contacts; else (edge across edge, round bodies)
-// the pair of witness points is.
+// one another (capsules or cylinders side by side, an edge on one of them) share a piece, and its two ends are the contacts; else (edge across edge, round bodies,
+// a normal that EPA left unfinished at its limit) the pair of witness points is.
 #pragma once
 
 #include <vector>

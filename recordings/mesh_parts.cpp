@@ -1,31 +1,96 @@
 #include "recordings/mesh_parts.h"
 
-namespace gjkdbg {
+#include <algorithm>
+#include <limits>
 
-std::optional<MeshParts> mesh_parts(const Recording& recording, std::size_t step) {
+#include "algo/motion.h"
+#include "shapes/shape.h"
+
+namespace gjkdbg {
+namespace {
+
+/// Scenes at rest go through all pairs of triangles in order. Every run begins as the first did: MPR and SAT may hand over to GJK, GJK to MPR.
+int runs_begun(const std::vector<Event>& events, std::size_t step) {
+  std::optional<std::size_t> first;
+  int run = -1;
+  for (std::size_t i = 0; i <= step; ++i) {
+    if (!kind_name(events[i]).ends_with("_began")) continue;
+    if (!first) first = events[i].index();
+    run += events[i].index() == *first;
+  }
+  return run;
+}
+
+/// Between two runs of a motion.
+bool between_runs(const Event& event) {
+  return std::holds_alternative<recorded::State>(event) || std::holds_alternative<recorded::CastBegan>(event) || std::holds_alternative<recorded::CastEnded>(event);
+}
+
+/// Motions leave out triangles that cannot be met: the supports of the step's run tell whose it is. Empty where there is none.
+std::vector<const recorded::SupportQueried*> supports_of_run(const std::vector<Event>& events, std::size_t step) {
+  std::vector<const recorded::SupportQueried*> supports;
+  std::size_t began = step + 1;
+  while (began-- > 0 && !between_runs(events[began])) {
+    if (!kind_name(events[began]).ends_with("_began")) continue;
+    for (std::size_t i = began + 1; i < events.size() && !between_runs(events[i]) && !kind_name(events[i]).ends_with("_began"); ++i)
+      if (const auto* query = std::get_if<recorded::SupportQueried>(&events[i]); query && query->phase != Phase::cast && query->direction.allFinite()) supports.push_back(query);
+    break;
+  }
+  return supports;
+}
+
+/// Whether each support along d (of body 0, -d of body 1) is the corner of the triangle that is farthest that way; with the margin or, of the core, without.
+bool fits(const std::array<AnyVector, 3>& corners, double margin, std::size_t body, const std::vector<const recorded::SupportQueried*>& supports) {
+  return std::all_of(supports.begin(), supports.end(), [&](const recorded::SupportQueried* query) {
+    const AnyVector d = query->direction.stableNormalized() * (body == 0 ? 1.0 : -1.0), &point = body == 0 ? query->a : query->b;
+    double size = point.norm(), nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
+    for (const AnyVector& c : corners) size = std::max(size, c.norm()), nearest = std::min(nearest, (c - point).norm()), farthest = std::max(farthest, d.dot(c - point));
+    const double close = 1e-6 * size;  // in single precision as well
+    return nearest <= margin + close && farthest <= close;
+  });
+}
+
+std::optional<int> triangle_that_fits(const Mesh& mesh, double margin, const Frame::Place& place, std::size_t body, const std::vector<const recorded::SupportQueried*>& supports) {
+  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+    std::array<AnyVector, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = place.rotation * mesh.points[static_cast<std::size_t>(mesh.triangles[k][i])] + place.position;
+    if (fits(corners, margin, body, supports)) return static_cast<int>(k);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<MeshParts> mesh_parts(const Recording& recording, const Frame& frame) {
   const Scene& scene = recording.scene.scene;
-  if (scene.motion || scene.bodies.size() != 2) return std::nullopt;
+  if (!scene.motion && scene.bodies.size() != 2) return std::nullopt;
   std::array<const Mesh*, 2> meshes;
   std::array<int, 2> counts{1, 1};
   for (std::size_t i = 0; i < 2; ++i) {
-    meshes[i] = std::get_if<Mesh>(&scene.bodies[i].shape.geometry);
+    const auto body = static_cast<std::size_t>(frame.pair[i]);
+    if (body >= scene.bodies.size()) return std::nullopt;
+    meshes[i] = std::get_if<Mesh>(&scene.bodies[body].shape.geometry);
     if (meshes[i]) counts[i] = static_cast<int>(meshes[i]->triangles.size());
   }
   if (!meshes[0] && !meshes[1]) return std::nullopt;
   MeshParts parts;
   parts.runs = counts[0] * counts[1];
-  // Every run begins as the first did: MPR and SAT may hand over to GJK, GJK to MPR.
-  std::optional<std::size_t> first;
-  parts.run = -1;
-  for (std::size_t i = 0; i <= step; ++i) {
-    const Event& event = recording.events[i];
-    if (!kind_name(event).ends_with("_began")) continue;
-    if (!first) first = event.index();
-    parts.run += event.index() == *first;
+  if (!scene.motion) {
+    parts.run = runs_begun(recording.events, frame.step);
+    if (parts.run < 0 || parts.run >= parts.runs) return std::nullopt;
+    if (meshes[0]) parts.triangle[0] = parts.run / counts[1];
+    if (meshes[1]) parts.triangle[1] = parts.run % counts[1];
+    return parts;
   }
-  if (parts.run < 0 || parts.run >= parts.runs) return std::nullopt;
-  if (meshes[0]) parts.triangle[0] = parts.run / counts[1];
-  if (meshes[1]) parts.triangle[1] = parts.run % counts[1];
+  const auto supports = supports_of_run(recording.events, frame.step);
+  if (supports.empty() || frame.places.size() != scene.bodies.size()) return std::nullopt;
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (!meshes[i]) continue;
+    const auto found = triangle_that_fits(*meshes[i], scene.bodies[static_cast<std::size_t>(frame.pair[i])].shape.margin, frame.places[static_cast<std::size_t>(frame.pair[i])], i, supports);
+    if (!found) return std::nullopt;
+    parts.triangle[i] = *found;
+  }
+  parts.run = std::max(0, parts.triangle[0]) * counts[1] + std::max(0, parts.triangle[1]);
   return parts;
 }
 

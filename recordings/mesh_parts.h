@@ -2,19 +2,18 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <optional>
 
-#include "recordings/recording.h"
+#include "recordings/replay.h"
 
 namespace gjkdbg {
 
 struct MeshParts {
-  std::array<int, 2> triangle{-1, -1};  ///< of each body, from 0; -1 of a body that is no mesh
-  int run = 0, runs = 1;                ///< of the runs of a scene, from 0
+  std::array<int, 2> triangle{-1, -1};  ///< of each body of the frame's pair, from 0; -1 of a body that is no mesh
+  int run = 0, runs = 1;                ///< of the pair's triangles, from 0
 };
 
-/// Of a scene that does not move. Unset where no body is a mesh, or before the first run.
-std::optional<MeshParts> mesh_parts(const Recording& recording, std::size_t step);
+/// Of the run that the frame's step belongs to. Unset where neither body is a mesh, where nothing runs, or where no triangle fits.
+std::optional<MeshParts> mesh_parts(const Recording& recording, const Frame& frame);
 
 }  // namespace gjkdbg

@@ -280,10 +280,11 @@ struct Apply {
     const AnyVector d = first->direction.stableNormalized();
     const auto is_of = [&](std::size_t i, const AnyVector& along, const AnyVector& point) {
       Body body = scene.bodies[i];
-      if (std::holds_alternative<Mesh>(body.shape.geometry)) return false;
       body.pose.position = frame.places[i].position, body.pose.matrix = frame.places[i].rotation;
       const double reach = reach_of(body.shape, scene.dimension), close = 1e-9 * (reach + point.norm());
       if ((point - body.pose.position).norm() > reach + close) return false;
+      if (const auto* mesh = std::get_if<Mesh>(&body.shape.geometry))
+        return std::any_of(mesh->points.begin(), mesh->points.end(), [&](const AnyVector& p) { return (body.pose.matrix * p + body.pose.position - point).norm() <= close; });
       const WorldSupport support(body, scene.dimension);
       return std::abs(along.dot(point - support(along, false))) <= close || std::abs(along.dot(point - support(along, true))) <= close;
     };
@@ -368,6 +369,7 @@ Replay::Replay(const Recording& recording) : recording_(&recording), vertices_(i
 
 const Frame& Replay::at(std::size_t step) {
   if (step >= recording_->events.size()) throw std::out_of_range("no such step");
+  if (started_ && filled_ && step == current_.step) return current_;
   if (!started_ || step < current_.step || step > current_.step + snapshot_distance) {
     const std::size_t snapshot = std::min(step / snapshot_distance, snapshots_.size());
     started_ = snapshot > 0;
@@ -381,6 +383,7 @@ const Frame& Replay::at(std::size_t step) {
       snapshots_.push_back(std::make_shared<const Frame>(current_));
   }
   fill_vertices(current_, *recording_, vertices_);
+  filled_ = true;
   return current_;
 }
 

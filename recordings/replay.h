@@ -105,7 +105,8 @@ class Replay {
  public:
   /// Keeps a reference: the recording must outlive the replay and not change.
   explicit Replay(const Recording& recording);
-  const Frame& at(std::size_t step);  ///< valid until the next call
+  /// Stays as it is until another step is asked for.
+  const Frame& at(std::size_t step);
 
  private:
   static constexpr std::size_t snapshot_distance = 256;
@@ -113,7 +114,7 @@ class Replay {
   std::map<int, std::vector<std::size_t>> vertices_;  ///< the events that gave out each number
   std::vector<std::shared_ptr<const Frame>> snapshots_;  ///< after events 255, 511, …
   Frame current_;
-  bool started_ = false;
+  bool started_ = false, filled_ = false;  ///< filled: with the vertices of the step last asked for
 };
 
 }  // namespace gjkdbg

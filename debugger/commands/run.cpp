@@ -29,7 +29,9 @@ struct Run {
 
  private:
   Recording solved(const SceneFile& read, const std::string& file) const {
-    const Settings settings = flags.resolve(read, file);
+    SceneFile asked = read;
+    asked.method = method_for_solver(read.method);
+    const Settings settings = flags.resolve(asked, file);
     try {
       return run_solver(read, settings, command, limits);
     } catch (const Error& e) {

@@ -170,8 +170,7 @@ struct Sweep {
   }
 
   Settings settings_of(const SceneFile& scene) const {
-    Method method = scene.method;
-    method.name = MethodName::gjk;
+    Method method = method_for_solver(scene.method);
     if (!scalar.empty()) method.scalar = scalar == scalar_names[1] ? Scalar::float_precision : Scalar::double_precision;
     return resolve_settings(method, scene.scene);
   }

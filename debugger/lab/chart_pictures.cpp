@@ -185,12 +185,12 @@ constexpr ChartPicture pictures[] = {{"chart", 1400, 1100, [](const Chart& c) { 
                                      {"motion", 1400, 520, [](const Chart& c) { return !c.motion.empty(); }, motion_picture}};
 
 std::string error_picture(const Chart& chart, const std::string& terminal, const std::string& file) {
-  return families(chart, pictures[0], terminal, file, "Speed against accuracy", "Time a query over the worst error outside the certified bounds, a dot a tolerance. Left and low is good. Dashed: single precision; greys: other libraries.",
+  return families(chart, pictures[0], terminal, file, "Speed against accuracy", "The time of a query over the worst error outside the certified bounds, a dot a tolerance. Left and low is good. Dashed: single precision; greys: other libraries.",
                   "worst error, of the size", [](const ChartPoint& p) { return p.worst_error; }, true);
 }
 
 std::string gap_picture(const Chart& chart, const std::string& terminal, const std::string& file) {
-  return families(chart, pictures[1], terminal, file, "What it takes to be sure", "Time a query over the gap between its certified bounds (the median), a dot a tolerance. Other libraries have no bounds. Dashed: single precision.",
+  return families(chart, pictures[1], terminal, file, "What it takes to be sure", "The time of a query over the gap between its certified bounds (the median), a dot a tolerance. Other libraries have no bounds. Dashed: single precision.",
                   "gap between the bounds, of the size", [](const ChartPoint& p) { return p.worst_gap > 0 ? p.median_gap : -1; }, false);
 }
 

@@ -17,8 +17,8 @@ class DifferencePainter : public Painter {
 
   Picture paint() {
     grid();
-    const auto parts = mesh_parts(recording_, frame_.step);
-    if (settings_.difference) mesh(moves() ? difference_here() : parts ? difference_of(*parts) : meshes_.difference, palette_.text_faint, 0.07, ViewPoint::Zero());
+    const auto parts = mesh_parts(recording_, frame_);
+    if (settings_.difference) mesh(moves() ? difference_here(parts) : parts ? difference_of(*parts) : meshes_.difference, palette_.text_faint, 0.07, ViewPoint::Zero());
     region();
     polytope();
     portal();
@@ -35,19 +35,22 @@ class DifferencePainter : public Painter {
   }
 
  private:
-  DisplayMesh difference_here() const {
+  /// Of the pair where it is now; a mesh's is that of its triangle.
+  DisplayMesh difference_here(const std::optional<MeshParts>& parts) const {
     const auto& bodies = recording_.scene.scene.bodies;
-    const auto at = [&](int i) {
-      Body body = bodies[static_cast<std::size_t>(i)];
-      body.pose.position = frame_.places[static_cast<std::size_t>(i)].position, body.pose.matrix = frame_.places[static_cast<std::size_t>(i)].rotation;
+    const auto at = [&](std::size_t which) {
+      const auto i = static_cast<std::size_t>(frame_.pair[which]);
+      Body body = bodies[i];
+      body.pose.position = frame_.places[i].position, body.pose.matrix = frame_.places[i].rotation;
+      if (parts && parts->triangle[which] >= 0) body.shape = triangle_of(body.shape, static_cast<std::size_t>(parts->triangle[which]));
       return body;
     };
     const int n = static_cast<int>(bodies.size());
     if (frame_.pair[0] >= n || frame_.pair[1] >= n) return {};
-    return difference_mesh(at(frame_.pair[0]), at(frame_.pair[1]), meshes_.dimension);
+    return difference_mesh(at(0), at(1), meshes_.dimension);
   }
 
-  /// Of the triangles whose run this is.
+  /// Of the triangles whose run this is, at rest.
   DisplayMesh difference_of(const MeshParts& parts) const {
     const auto part = [&](std::size_t i) {
       Body body = recording_.scene.scene.bodies[i];

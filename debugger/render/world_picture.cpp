@@ -49,11 +49,12 @@ class WorldPainter : public Painter {
 
   /// Of a mesh the triangle whose run this is.
   void triangles() {
-    const auto parts = mesh_parts(recording_, frame_.step);
+    const auto parts = mesh_parts(recording_, frame_);
     for (std::size_t i = 0; parts && i < 2; ++i) {
       if (parts->triangle[i] < 0) continue;
-      const DisplayMesh& mesh = meshes_.bodies[i];
-      const Colour colour = body_colour(static_cast<int>(i));
+      const int body = frame_.pair[i];
+      const DisplayMesh mesh = moves() ? placed(body) : meshes_.bodies[static_cast<std::size_t>(body)];
+      const Colour colour = body_colour(body);
       PictureFace face;
       for (const int corner : mesh.faces[static_cast<std::size_t>(parts->triangle[i])]) face.points.push_back(mesh.points[static_cast<std::size_t>(corner)]);
       for (std::size_t k = 0; k < 3; ++k) picture_.line(face.points[k], face.points[(k + 1) % 3], colour, 3);

@@ -87,6 +87,12 @@ void talk(SolverProcess& process, SolverRecorder& recorder, const SolverLimits& 
 
 }  // namespace
 
+Method method_for_solver(const Method& of_scene) {
+  Method method;
+  method.penetration = of_scene.penetration, method.scalar = of_scene.scalar, method.tolerance = of_scene.tolerance, method.max_iterations = of_scene.max_iterations;
+  return method;
+}
+
 Recording run_solver(const SceneFile& scene, const Settings& settings, const std::string& command, const SolverLimits& limits) {
   if (scene.scene.motion) throw Error("unsupported-query", "a solver answers scenes that do not move, not \"" + std::string(query_names[static_cast<std::size_t>(scene.scene.query)]) + "\"", "/query");
   for (const Body& body : scene.scene.bodies)

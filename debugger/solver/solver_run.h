@@ -14,6 +14,9 @@ struct SolverLimits {
   int errors = 2;       ///< the file descriptor its standard error goes to: ours
 };
 
+/// What a scene's method means to a program that has its own: how exact, and in which numbers. Which of ours solves it, by what rule and from where is not the program's affair.
+Method method_for_solver(const Method& of_scene);
+
 /// Runs `command` on a scene and records it. A crash, a hang, a bad message, too many queries or a missing result end the recording with a
 /// warning event of that name ("crash", …), which `check` turns into a finding; the result's status is then "aborted".
 /// Throws Error when the scene cannot be run this way (meshes) or the program not be started.

@@ -111,7 +111,8 @@ void App::panels(const Area& window) {
   Preferences& p = preferences;
   const float rail = theme.px(44);
   const float left = narrow ? rail : std::min(theme.px(p.left), window.width * 0.35f), right = std::min(theme.px(p.right), window.width * (narrow ? 0.29f : 0.4f));
-  const float bottom = std::min(theme.px(p.bottom), window.height * 0.6f);
+  const float tall = std::clamp(window.height / theme.px(900), 1.f, 1.6f);  // a tall window has more steps in its list
+  const float bottom = std::min(theme.px(p.bottom) * tall, window.height * 0.6f);
   const Area middle{left + 2 * gap, top + gap, window.width - left - right - 4 * gap, height - bottom - gap};
   if (narrow) icon_rail({gap, top + gap, left, height});
   else left_panel({gap, top + gap, left, height}), rail_opens_.reset();
@@ -120,8 +121,14 @@ void App::panels(const Area& window) {
   step_panel(*this, {window.width - right - gap, top + gap, right, height});
   if (!narrow) splitter("##left", {left + gap, top + gap, gap, height}, true, p.left, 200, 460, 1);
   splitter("##right", {window.width - right - 2 * gap, top + gap, gap, height}, true, p.right, 240, 560, -1);
-  splitter("##bottom", {middle.x, middle.y + middle.height, middle.width, gap}, false, p.bottom, 130, 520, -1);
+  splitter("##bottom", {middle.x, middle.y + middle.height, middle.width, gap}, false, p.bottom, 130, 520, -1 / tall);
   banner({middle.x + gap, middle.y + gap, middle.width - 2 * gap, theme.px(40)});
+}
+
+void App::edit(const SceneFile& next) {
+  const bool theirs = foreign(session.recording());
+  message = session.edit(next);
+  if (theirs && message.empty()) note("solved by gjkdbg's own method from here on; Ctrl-Z brings your solver's run back");
 }
 
 /// The gap between two panels: dragging it moves the border, a double click puts it back.

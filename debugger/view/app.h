@@ -54,6 +54,9 @@ class App {
   const Gallery& gallery() const { return gallery_; }
   Thumbnails& thumbnails() { return thumbnails_; }
 
+  /// An edit of the scene: what is wrong with it, or that another program's run has made way, is said in the window.
+  void edit(const SceneFile& next);
+
   /// One frame: keys, panels, views. Call between ImGui::NewFrame and ImGui::Render.
   void frame();
   /// Only the two views with a caption: what `render` writes.
@@ -107,6 +110,11 @@ class App {
 
 void gallery_panel(App& app);
 void scene_panel(App& app);
+/// Of the scene panel, each with its heading.
+void compare_section(App& app);
+void stop_section(App& app);
+/// The methods that can answer the scene's query on its bodies; `fastest` stands for one of them where there is a choice.
+std::vector<int> possible_methods(const SceneFile& file);
 void step_panel(App& app, const Area& area);
 void timeline_panel(App& app, const Area& area);
 void transport(App& app);
@@ -131,8 +139,11 @@ void number_row(const Theme& theme, const char* label, const std::string& value,
 /// `exact`: with all digits, for the tooltip and a right click, which copies it.
 void number_row(App& app, const char* label, const std::string& value, Colour colour, std::optional<std::size_t> source, const std::string& exact = {});
 /// With all digits, and as they are shown.
+/// With blanks behind it, so that numbers that end in one column have their points in one column; small ones with fewer digits.
+std::string at_the_point(double value);
 void number_row(App& app, const char* label, double value, Colour colour, std::optional<std::size_t> source = {});
-void number_row(App& app, const char* label, const AnyVector& value, Colour colour, std::optional<std::size_t> source = {});
+void number_row(App& app, const char* label, const AnyVector& value, Colour colour, std::optional<std::size_t> source = {}, int digits = 4);
+std::string all_digits(double x);
 /// Of the two bodies that are looked at their own colours, of the others none.
 Colour letter_colour(App& app, int body);
 /// One of several buttons of which one is `current`; width 0: as the text needs.
@@ -140,9 +151,13 @@ bool tab_button(const Theme& theme, const char* name, bool current, float width 
 /// A rounded label.
 void chip(const Theme& theme, const std::string& text, Colour colour);
 Colour event_colour(const Palette& palette, const Event& event);
+/// How tall its tick is on the scrubber, 1 the tallest: kinds are told apart by more than colour.
+float event_share(const Event& event);
 /// "support", "simplex", …: a word for an event's kind in lists.
 const char* short_kind(const Event& event);
 
+/// Whether the bounds leave open more of the distance or depth than four digits: what is given is the most it can be.
+bool unproven(const Result& result);
 /// The answer in a few words: "overlapping, depth 0.1".
 std::string result_text(const Recording& recording);
 /// "gjk · signed-volumes · double"; of another implementation's run "your solver"

@@ -73,7 +73,7 @@ struct Explain : ExplainMotion {
     switch (e.status) {
       case GjkStatus::converged:
         if (!std::isfinite(e.lower_bound) || !std::isfinite(e.upper_bound)) return "The search ends, and the bodies are called apart. How far is not said here.";
-        return "No support lies nearer the origin than v: the bounds " + short_number(e.lower_bound) + " and " + short_number(e.upper_bound) + " have met. The signed distance is known" + less_the_radii(e) + ".";
+        return "No support lies farther along -v than v itself: the bounds " + short_number(e.lower_bound) + " and " + short_number(e.upper_bound) + " have met. The signed distance is known" + less_the_radii(e) + ".";
       case GjkStatus::separated: return "The plane of the last support has all of " + difference() + " on its far side, so the bodies are apart. Only yes or no was asked, and this is the proof.";
       case GjkStatus::within_radius: return "The cores are apart, but nearer than the radii around them: the bodies overlap, and no more was asked.";
       case GjkStatus::enclosed: return "The simplex encloses the origin: some point of " + a() + " is also a point of " + b() + ". The " + bodies() + " overlap.";
@@ -92,7 +92,9 @@ struct Explain : ExplainMotion {
       case EpaStatus::converged:
         return "No vertex lies beyond the chosen " + face + ": it is part of the boundary of " + difference() + ", and its distance" + with_the_radii(e) + " is the depth. Moving " + b() + " by " + short_number(e.depth) + " along " +
                short_vector(e.normal) + " just separates the bodies.";
-      case EpaStatus::flat: return difference() + " has no " + std::string(face == "edge" ? "area" : "volume") + " here: the " + bodies() + " touch without depth. The normal is across the flat difference.";
+      case EpaStatus::flat:
+        if (rounded()) return "The difference of the cores has no " + std::string(face == "edge" ? "area" : "volume") + ", and the origin lies in it: the depth, " + short_number(e.depth) + ", is that of the radii alone. The normal is across the flat difference.";
+        return difference() + " has no " + std::string(face == "edge" ? "area" : "volume") + " here: the " + bodies() + " touch without depth. The normal is across the flat difference.";
       case EpaStatus::separated: return "A support plane has the origin on its far side: the bodies are apart after all, by less than GJK could tell.";
       case EpaStatus::stalled: return "No " + face + " can be added in this precision. The last good " + face + " is the answer, and the bounds say how exact it is.";
       case EpaStatus::iteration_limit: return "The limit is reached before the bounds met, as on round shapes with many directions equally good. The bounds say how much is known.";
@@ -105,7 +107,7 @@ struct Explain : ExplainMotion {
   std::string first_way(const AnyVector& direction) const {
     const auto& bodies = recording.scene.scene.bodies;
     const bool fallback = bodies.size() == 2 && bodies[0].pose.position == bodies[1].pose.position && direction.tail(direction.size() - 1).isZero(0);
-    return fallback ? ", for the bodies' positions coincide. Any direction but zero would do." : ", from " + a() + " towards " + b() + ". Any direction but zero would do.";
+    return fallback ? ", for the origins of the bodies' poses coincide. Any direction but zero would do." : ", from " + a() + " towards " + b() + ". Any direction but zero would do.";
   }
 
   Explanation operator()(const recorded::GjkBegan& e) const {
@@ -286,7 +288,7 @@ struct Explain : ExplainMotion {
   Explanation operator()(const recorded::AxisTested& e) const {
     const std::string from[] = {"the normal of a " + facet() + " of " + a(), "the normal of a " + facet() + " of " + b(), "across an edge of each"};
     const std::string axis = "Along " + short_vector(e.direction) + ", " + from[static_cast<std::size_t>(e.source)] + ", ";
-    if (e.distance > 0) return {"An axis with a gap", axis + "the bodies are " + short_number(e.distance) + " apart: this axis separates them."};
+    if (e.distance > 0) return {"An axis with a gap", axis + "there is a gap of " + short_number(e.distance) + " between the bodies: this axis separates them, and they are at least that far apart."};
     return {"An axis without a gap", axis + "the bodies overlap by " + short_number(-e.distance) + (e.lower_bound <= e.distance ? ", the least so far: the depth is no more than that." : ", more than along the best axis so far.")};
   }
 
@@ -322,7 +324,7 @@ struct Explain : ExplainMotion {
   Explanation operator()(const recorded::ClosedFormBegan& e) const {
     const bool a = !e.edge_a.isZero(0), b = !e.edge_b.isZero(0);
     const std::string what = a && b ? "Both cores are segments: " + difference() + " is the parallelogram with the corner c = " : a || b ? "One core is a point, the other a segment: " + difference() + " is a segment from c = " : "Both cores are points: " + difference() + " is the point c = ";
-    return {"A formula instead of a search", what + short_vector(e.corner) + (a ? ", edge u = " + short_vector(e.edge_a) : "") + (b ? std::string(a ? " and -v" : ", edge -v") + ", v = " + short_vector(e.edge_b) : "") + ". The radii are added afterwards."};
+    return {"A formula instead of a search", what + short_vector(e.corner) + (a ? ", edge p = " + short_vector(e.edge_a) : "") + (b ? std::string(a ? " and -q" : ", edge -q") + ", q = " + short_vector(e.edge_b) : "") + ". The radii are added afterwards."};
   }
 
   Explanation operator()(const recorded::ProjectionsBegan& e) const {
@@ -343,15 +345,15 @@ struct Explain : ExplainMotion {
   Explanation operator()(const recorded::LinesSolved& e) const {
     const auto place = [](double x, const char* name) { return std::string(name) + " = " + short_number(x) + (x < 0 ? ", before its beginning" : x > 1 ? ", beyond its end" : ", within it"); };
     const bool s = !std::isnan(e.s), t = !std::isnan(e.t);
-    if (s && t) return {"The lines are solved", "Where both derivatives of |w|\xC2\xB2 vanish the lines are nearest: " + place(e.s, "s") + ", " + place(e.t, "t") + ". What is out of range is clamped, and the other is taken anew."};
+    if (s && t) return {"The lines are solved", "Where both derivatives of |v|\xC2\xB2 vanish the lines are nearest: " + place(e.s, "s") + ", " + place(e.t, "t") + ". What is out of range is clamped, and the other is taken anew."};
     if (s || t) return {"The line is solved", "The foot of the perpendicular lies at " + (s ? place(e.s, "s") : place(e.t, "t")) + "."};
     if (frame.parallelogram && !frame.parallelogram->edge_a.isZero(0)) return {"The lines are parallel", "The determinant is zero: every place along them is as near as the others, and an end of a segment will do."};
     return {"Nothing to solve", "A point has no parameter."};
   }
 
   Explanation operator()(const recorded::ClosedFormEnded& e) const {
-    const std::string title = "Closed form ends: " + std::string(closed_form_status_names[static_cast<std::size_t>(e.status)]), at = "At s = " + short_number(e.s) + ", t = " + short_number(e.t) + " ";
-    if (e.status == ClosedFormStatus::separated) return {title, at + "w is nearest to the origin, " + short_number(e.closest.norm()) + " away, and the plane across it proves that. Less the radii, that is the bodies' distance."};
+    const std::string title = "Closed form ends: " + std::string(closed_form_status_names[static_cast<std::size_t>(e.status)]), at = "At s = " + short_number(e.s) + ", t = " + short_number(e.t) + ", ";
+    if (e.status == ClosedFormStatus::separated) return {title, at + "v is nearest to the origin, " + short_number(e.closest.norm()) + " away, and the plane across it proves that. Less the radii, that is the bodies' distance."};
     if (e.normal.norm() > 0) return {title, "The origin lies in " + difference() + ". " + at + "the border is nearest, " + short_number(e.closest.norm()) + " along " + short_vector(e.normal) + "; with the radii, that is the depth."};
     return {title, "The origin lies in " + difference() + ", so the bodies overlap; no more was asked."};
   }

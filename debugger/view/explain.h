@@ -40,6 +40,6 @@ std::string letters(const std::vector<int>& vertices, const std::vector<int>& or
 
 /// Short decimal: six significant digits.
 std::string short_number(double x);
-std::string short_vector(const AnyVector& v);
+std::string short_vector(const AnyVector& v, int digits = 4);
 
 }  // namespace gjkdbg

@@ -39,6 +39,7 @@ void App::keys() {
   const ImGuiIO& io = ImGui::GetIO();
   // WantTextInput still holds in the frame after a text field went away with its dialog: keys typed meanwhile are no text.
   if ((io.WantTextInput && ImGui::IsAnyItemActive()) || !session.is_open()) return;
+  if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel) && !rail_open_ && asked_ == Asking::nothing) return;  // a list is open to choose from
   step_keys(shift_held(), control_held());
   if (control_held()) return control_keys(shift_held());
   if (key_pressed(Key::home)) session.playing = false, session.go_to(0);

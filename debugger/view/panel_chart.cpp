@@ -318,8 +318,8 @@ void motion(App& app, ImVec2 at, ImVec2 size) {
 
 const char* told_of(App::ChartView view) {
   switch (view) {
-    case App::ChartView::error: return "Time a query against the worst error of a family of pairs, a dot a tolerance; ringed: nothing is both faster and more accurate. Left and low is good.";
-    case App::ChartView::gap: return "Time a query against the gap between its certified bounds (the median of the pairs): what it takes to be sure. Other libraries have no bounds.";
+    case App::ChartView::error: return "The time of a query against the worst error of a family of pairs, a dot a tolerance; ringed: nothing is both faster and more accurate. Left and low is good.";
+    case App::ChartView::gap: return "The time of a query against the gap between its certified bounds (the median of the pairs): what it takes to be sure. Other libraries have no bounds.";
     case App::ChartView::iterations: return "GJK's iterations by distance, mean and deviation, stopped at a duality gap of 1e-8; squares: as published.";
     case App::ChartView::price: return "The same pairs, modelled as they need and as they do not. The error is the one against what was meant.";
     case App::ChartView::motion: return "Casts by how early their worst time of impact is, none late; integrators by how far the energy of a free box drifts.";

@@ -11,12 +11,13 @@ namespace gjkdbg {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
+constexpr float label_width = 108;  ///< logical pixels
 
 /// One labelled row of numbers; true when edited.
 bool numbers(const Theme& theme, const char* label, double* values, int count, float speed, const double* low = nullptr) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextColored(vec(theme.palette.text_soft), "%s", label);
-  ImGui::SameLine(theme.px(100));
+  ImGui::SameLine(theme.px(label_width));
   ImGui::SetNextItemWidth(-1);
   ImGui::PushFont(theme.mono);
   ImGui::PushID(label);
@@ -133,12 +134,12 @@ bool body(const Theme& theme, Body& b, int index, Colour colour, int dimension, 
   ImGui::TextColored(vec(colour), "%s", body_letter(index).c_str());
   if (!b.name.empty() && b.name != body_letter(index)) {
     ImGui::SameLine();
-    ImGui::PushClipRect(ImGui::GetCursorScreenPos(), {ImGui::GetWindowPos().x + theme.px(96), ImGui::GetCursorScreenPos().y + ImGui::GetFrameHeight()}, true);
+    ImGui::PushClipRect(ImGui::GetCursorScreenPos(), {ImGui::GetWindowPos().x + theme.px(label_width - 4), ImGui::GetCursorScreenPos().y + ImGui::GetFrameHeight()}, true);
     ImGui::TextColored(vec(theme.palette.text_soft), "%s", b.name.c_str());
     ImGui::PopClipRect();
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", b.name.c_str());
   }
-  ImGui::SameLine(theme.px(100));
+  ImGui::SameLine(theme.px(label_width));
   bool edited = choose_type(b.shape, dimension, size);
   edited |= std::visit(ShapeEditor{theme, dimension, speed}, b.shape.geometry);
   edited |= numbers(theme, "margin", &b.shape.margin, 1, speed, &zero);
@@ -170,32 +171,21 @@ void setting_label(const Theme& theme, const char* label, const char* meaning) {
 template <class Names>
 bool choice(const Theme& theme, const char* label, int& value, const Names& names, const std::vector<int>& offered, const char* meaning) {
   setting_label(theme, label, meaning);
-  ImGui::SameLine(theme.px(100));
+  ImGui::SameLine(theme.px(label_width));
   ImGui::SetNextItemWidth(-1);
   bool edited = false;
   ImGui::PushID(label);
-  if (ImGui::BeginCombo("##choice", std::string(names[static_cast<std::size_t>(value)]).c_str())) {
+  const std::string now(names[static_cast<std::size_t>(value)]);
+  const float room = ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - 2 * ImGui::GetStyle().FramePadding.x;
+  const bool open = ImGui::BeginCombo("##choice", shortened(theme.text, now, room).c_str());
+  if (!open && ImGui::IsItemHovered() && ImGui::CalcTextSize(now.c_str()).x > room) ImGui::SetTooltip("%s", now.c_str());
+  if (open) {
     for (const int i : offered)
       if (ImGui::Selectable(std::string(names[static_cast<std::size_t>(i)]).c_str(), i == value)) value = i, edited = true;
     ImGui::EndCombo();
   }
   ImGui::PopID();
   return edited;
-}
-
-/// The methods that can answer the scene's query on its bodies; `fastest` stands for one of them where there is a choice.
-std::vector<int> possible_methods(const SceneFile& file) {
-  std::vector<int> out;
-  for (std::size_t i = 0; i < method_names.size(); ++i) {
-    Method m = file.method;
-    change_name(m, static_cast<MethodName>(i));
-    try {
-      const bool fastest = m.name == MethodName::fastest && !file.scene.motion;
-      if (resolve_settings(m, file.scene).name == *m.name || fastest) out.push_back(static_cast<int>(i));
-    } catch (const Error&) {
-    }
-  }
-  return out;
 }
 
 /// Where GJK begins, and the direction where one is given.
@@ -219,6 +209,11 @@ bool method(App& app, SceneFile& next) {
   const Settings& now = app.session.recording().settings;
   static constexpr const char* query_meaning = "The least the scene needs: yes or no, how far apart, how deep as well, or the contact points too. Nothing beyond it is computed.";
   section(theme, "METHOD");
+  if (foreign(app.session.recording())) {
+    ImGui::PushFont(theme.small);
+    wrapped("This run is your solver's. A change here or to a body solves the scene by one of gjkdbg's own methods; Ctrl-Z brings your run back.", theme.palette.text_faint);
+    ImGui::PopFont();
+  }
   bool edited = false;
   int query = static_cast<int>(next.scene.query), scalar = static_cast<int>(now.scalar);
   int name = static_cast<int>(next.method.name == MethodName::fastest ? MethodName::fastest : now.name);
@@ -244,7 +239,7 @@ bool method(App& app, SceneFile& next) {
   if (choice(theme, "scalar", scalar, scalar_names, {0, 1}, "What is counted in: double has 16 digits, float 7.")) next.method.scalar = static_cast<Scalar>(scalar), next.method.tolerance.reset(), edited = true;
   if (now.name == MethodName::closed_form) return edited;  // a formula neither converges nor iterates
   setting_label(theme, "tolerance", "How far apart the bounds may be at the end, as a share of the distance or depth.");
-  ImGui::SameLine(theme.px(100));
+  ImGui::SameLine(theme.px(label_width));
   ImGui::SetNextItemWidth(-1);
   ImGui::PushFont(theme.mono);
   double tolerance = now.tolerance;
@@ -252,15 +247,13 @@ bool method(App& app, SceneFile& next) {
   ImGui::PopFont();
   int limit = now.max_iterations;
   setting_label(theme, "max iterations", "Where each of GJK, EPA and the others gives up, and says so.");
-  ImGui::SameLine(theme.px(100));
+  ImGui::SameLine(theme.px(label_width));
   ImGui::SetNextItemWidth(-1);
+  ImGui::PushFont(theme.mono);
   if (ImGui::InputInt("##limit", &limit, 0, 0, ImGuiInputTextFlags_EnterReturnsTrue)) next.method.max_iterations = std::max(1, limit), edited = true;
+  ImGui::PopFont();
   return edited;
 }
-
-}  // namespace
-
-namespace {
 
 /// Moving scenes take any number of bodies.
 bool add_body(SceneFile& next) {
@@ -270,70 +263,6 @@ bool add_body(SceneFile& next) {
   body.pose.position[0] += 2 * std::max(1e-9, reach_of(body.shape, next.scene.dimension));
   next.scene.bodies.push_back(body);
   return true;
-}
-
-/// Another run beside this one: the same scene by another method, or a recording.
-void compare_with(App& app) {
-  const Theme& theme = app.theme;
-  Session& s = app.session;
-  section(theme, "COMPARE WITH");
-  ImGui::SetNextItemWidth(-1);
-  if (ImGui::BeginCombo("##compare", s.comparing() ? s.other_title().c_str() : "nothing")) {
-    if (ImGui::Selectable("nothing", !s.comparing())) s.stop_comparing();
-    const Settings& now = s.recording().settings;
-    const std::vector<int> possible = possible_methods(s.scene());
-    const auto offer = [&](const char* title, auto change) {
-      Method method = s.scene().method;
-      change(method);
-      if (ImGui::Selectable(title)) app.message = s.compare_with(method, title);
-    };
-    if (now.scalar == Scalar::double_precision) offer("single precision", [](Method& m) { m.scalar = Scalar::float_precision, m.tolerance.reset(); });
-    else offer("double precision", [](Method& m) { m.scalar = Scalar::double_precision, m.tolerance.reset(); });
-    for (const ClosestPoint part : {ClosestPoint::signed_volumes, ClosestPoint::johnson, ClosestPoint::voronoi})
-      if (part != now.closest_point) offer(closest_point_names[static_cast<std::size_t>(part)].data(), [&](Method& m) { m.closest_point = part, m.name = MethodName::gjk; });
-    for (const MethodName name : {MethodName::gjk, MethodName::gjk_accelerated, MethodName::gjk_boolean, MethodName::mpr, MethodName::sat, MethodName::closed_form, MethodName::projections}) {
-      if (name == now.name || std::find(possible.begin(), possible.end(), static_cast<int>(name)) == possible.end()) continue;
-      offer(method_names[static_cast<std::size_t>(name)].data(), [&](Method& m) { change_name(m, name); });
-    }
-    if (ImGui::Selectable("another recording ...")) app.ask(App::Asking::compare);
-    ImGui::EndCombo();
-  }
-  if (!s.comparing()) return;
-  ImGui::PushFont(theme.small);
-  const auto& parting = s.parting();
-  if (parting && parting->event < s.count()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.accent));
-    if (ImGui::Selectable(("they part at step " + std::to_string(parting->event)).c_str())) s.go_to(parting->event);
-    ImGui::PopStyleColor();
-  } else {
-    wrapped(parting_text(s), theme.palette.text_soft);
-  }
-  ImGui::PopFont();
-}
-
-/// Where playing stops, besides the breakpoints.
-void stop_when(App& app) {
-  const Theme& theme = app.theme;
-  section(theme, "STOP WHEN");
-  char buffer[256] = {};
-  app.stop_when_text.copy(buffer, sizeof buffer - 1);
-  ImGui::SetNextItemWidth(-1);
-  ImGui::PushFont(theme.mono);
-  if (ImGui::InputTextWithHint("##stop", "upper_bound < 1e-3", buffer, sizeof buffer)) {
-    app.stop_when_text = buffer;
-    app.stop_when_error.clear();
-    try {
-      app.session.stop_when = Condition(app.stop_when_text);
-    } catch (const Error& e) {
-      app.stop_when_error = e.message();
-    }
-  }
-  ImGui::PopFont();
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("kind == polytope_grown    status == stalled    region.size == 3    any warning    … and …    … or …");
-  if (app.stop_when_error.empty()) return;
-  ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.newest));
-  ImGui::TextWrapped("%s", app.stop_when_error.c_str());
-  ImGui::PopStyleColor();
 }
 
 }  // namespace
@@ -362,14 +291,14 @@ void scene_panel(App& app) {
   edited |= method(app, next);
   if (edited) {
     next.expect.reset();  // of the scene as it was
-    app.message = app.session.edit(next);
+    app.edit(next);
     app.fit_what_has_left();
   }
   // A drag in a field is one edit, from press to release.
   if (!was_active && ImGui::IsAnyItemActive()) app.session.begin_edit();
   if (!ImGui::IsAnyItemActive()) app.session.end_edit();
-  compare_with(app);
-  stop_when(app);
+  compare_section(app);
+  stop_section(app);
   section(theme, "SHOW");
   Preferences& p = app.preferences;
   ImGui::Checkbox("Minkowski difference", &p.difference);

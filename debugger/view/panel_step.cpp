@@ -39,7 +39,7 @@ const char* phase_name(const Event& event, const Frame& frame) {
 
 /// Of a mesh: which triangle the step is about; empty where there is none.
 std::string triangle_name(Session& session) {
-  const auto parts = mesh_parts(session.recording(), session.step());
+  const auto parts = mesh_parts(session.recording(), session.frame());
   return parts ? "Triangle " + std::to_string(parts->run + 1) + " of " + std::to_string(parts->runs) : "";
 }
 
@@ -74,7 +74,7 @@ void weights(App& app) {
     ImGui::PushFont(theme.mono);
     ImGui::TextColored(vec(theme.palette.text_faint), "#%d", frame.simplex[i]);
     if (i < frame.barycentric.size()) {
-      const std::string value = short_number(frame.barycentric[i]);
+      const std::string value = at_the_point(frame.barycentric[i]);
       const float from = left + theme.px(64), to = left + width - theme.px(78);
       draw->AddRectFilled({from, y + theme.px(5)}, {to, y + theme.px(13)}, packed(theme.palette.field), theme.px(3));
       const auto share = static_cast<float>(std::clamp(frame.barycentric[i], 0.0, 1.0));
@@ -107,8 +107,8 @@ void regions(App& app) {
     std::string part, why;
     for (const int i : test.part) part += static_cast<char>('A' + (app.settings.newest_first ? i : static_cast<int>(points.size()) - 1 - i));
     const std::size_t least = static_cast<std::size_t>(std::min_element(test.weights.begin(), test.weights.end()) - test.weights.begin());
-    if (!test.holds_projection) why = std::string("\xCE\xBB") + part[least] + " " + short_number(test.weights[least]);
-    else why = short_number(test.distance);
+    if (!test.holds_projection) why = std::string("\xCE\xBB") + part[least] + " " + at_the_point(test.weights[least]);
+    else why = at_the_point(test.distance);
     std::sort(part.begin(), part.end());
     const Colour colour = test.nearest ? theme.palette.simplex : test.holds_projection ? theme.palette.text_soft : theme.palette.dropped;
     ImGui::TextColored(vec(colour), "%s %s", test.nearest ? ">" : " ", part.c_str());
@@ -163,15 +163,17 @@ void bounds(App& app) {
   if (!frame.lower_bound && !frame.upper_bound) return;
   const Event& event = app.session.recording().events[app.session.step()];
   const bool before = std::holds_alternative<recorded::SupportQueried>(event) || std::holds_alternative<recorded::PolytopeSeeded>(event) || std::holds_alternative<recorded::FaceChosen>(event);
-  section(theme, (std::string(mesh_parts(app.session.recording(), app.session.step()) ? "DISTANCE TO THE TRIANGLE" : "SIGNED DISTANCE") + (before ? ", BEFORE THIS STEP" : "")).c_str());
+  section(theme, (std::string(mesh_parts(app.session.recording(), app.session.frame()) ? "DISTANCE TO THE TRIANGLE" : "SIGNED DISTANCE") + (before ? ", BEFORE THIS STEP" : "")).c_str());
   const auto row = [&](const char* label, const std::optional<double>& x, std::optional<std::size_t> source) {
-    if (x) number_row(app, label, *x, theme.palette.text, source);
+    if (x) number_row(app, label, at_the_point(*x), theme.palette.text, source, all_digits(*x));
     else number_row(app, label, "unknown", theme.palette.text, source);
   };
   const auto from = last_of<recorded::SimplexReduced, recorded::GjkEnded, recorded::PolytopeGrown, recorded::PortalFound, recorded::AxisTested, recorded::PointsProjected, recorded::ProjectionsEnded, recorded::ClosedFormEnded>(app.session);
   row("at most", frame.upper_bound, from);
   row("at least", frame.lower_bound, from);
-  if (frame.lower_bound && frame.upper_bound) number_row(app, "gap", *frame.upper_bound - *frame.lower_bound, theme.palette.text_soft);
+  if (!frame.lower_bound || !frame.upper_bound) return;
+  const double gap = *frame.upper_bound - *frame.lower_bound;
+  number_row(app, "gap", at_the_point(gap), theme.palette.text_soft, std::nullopt, all_digits(gap));
 }
 
 void algorithm(App& app) {
@@ -223,13 +225,20 @@ std::string touching_text(const Result& r) {
   return text + more;
 }
 
+/// As many as two points need to look like two, where they are two.
+int digits_that_tell(const AnyVector& p, const AnyVector& q) {
+  int digits = 4;
+  while (digits < 17 && p != q && short_vector(p, digits) == short_vector(q, digits)) ++digits;
+  return digits;
+}
+
 /// After the last step: the answer and its certificate.
 void answer(App& app) {
   if (app.session.step() + 1 != app.session.count()) return;
   const Theme& theme = app.theme;
   const Result& r = app.session.recording().result;
   const bool first_hit = app.session.scene().scene.query == Query::cast && r.touching_at;
-  section(theme, mesh_parts(app.session.recording(), app.session.step()) ? "RESULT, OF ALL TRIANGLES" : first_hit ? "RESULT: THE FIRST HIT" : "RESULT");
+  section(theme, mesh_parts(app.session.recording(), app.session.frame()) ? "RESULT, OF ALL TRIANGLES" : first_hit ? "RESULT: THE FIRST HIT" : "RESULT");
   if (r.time) number_row(app, app.session.scene().scene.query == Query::cast ? "apart until" : "time", *r.time, theme.palette.text);
   if (r.touching_at) number_row(theme, "touching at", touching_text(r), theme.palette.text);
   if (r.energy) number_row(app, "energy", *r.energy, theme.palette.text);
@@ -238,11 +247,13 @@ void answer(App& app) {
     number_row(theme, "support calls", std::to_string(r.support_calls), theme.palette.text_soft);
     return;
   }
-  number_row(theme, "intersecting", r.intersecting ? "yes" : "no", r.intersecting ? theme.palette.chosen : theme.palette.support);
-  if (r.signed_distance) number_row(app, "signed distance", *r.signed_distance, theme.palette.text, last_of<recorded::GjkEnded, recorded::EpaEnded, recorded::MprEnded, recorded::SatEnded, recorded::ClosedFormEnded, recorded::ProjectionsEnded>(app.session));
+  number_row(theme, "intersecting", r.intersecting ? "yes" : "no", foreign(app.session.recording()) ? theme.palette.text : r.intersecting ? theme.palette.chosen : theme.palette.support);
+  const char* label = !r.signed_distance || !unproven(r) ? "signed distance" : *r.signed_distance < 0 ? "signed distance, at least" : "signed distance, at most";
+  if (r.signed_distance) number_row(app, label, *r.signed_distance, theme.palette.text, last_of<recorded::GjkEnded, recorded::EpaEnded, recorded::MprEnded, recorded::SatEnded, recorded::ClosedFormEnded, recorded::ProjectionsEnded>(app.session));
   if (r.normal) number_row(app, "normal", *r.normal, theme.palette.text);
-  if (r.witness_a) number_row(app, "witness a", *r.witness_a, theme.palette.body_a);
-  if (r.witness_b) number_row(app, "witness b", *r.witness_b, theme.palette.body_b);
+  const int digits = r.witness_a && r.witness_b ? digits_that_tell(*r.witness_a, *r.witness_b) : 4;
+  if (r.witness_a) number_row(app, "witness a", *r.witness_a, theme.palette.body_a, {}, digits);
+  if (r.witness_b) number_row(app, "witness b", *r.witness_b, theme.palette.body_b, {}, digits);
   if (r.contacts) number_row(theme, "contact points", std::to_string(r.contacts->size()), theme.palette.chosen);
   number_row(theme, "support calls", std::to_string(r.support_calls), theme.palette.text_soft);
 }

@@ -1,7 +1,9 @@
 // Below the views: transport, scrubber, event list, bounds.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "debugger/view/app.h"
 #include "debugger/view/explain.h"
@@ -53,8 +55,11 @@ void transport(App& app) {
   if (icon_button(theme, "##forward", Icon::forward, "On an event (Right)")) s.step_by(1);
   if (icon_button(theme, "##forward_iteration", Icon::forward_iteration, "On an iteration (Shift+Right)")) s.step_iteration(1);
   if (icon_button(theme, "##last", Icon::last, "To the end (End)")) s.go_to(s.count() - 1);
-  const std::string count = "step " + std::to_string(s.step()) + " of " + std::to_string(s.count() - 1);
-  const float count_width = ImGui::CalcTextSize(count.c_str()).x, right = ImGui::GetWindowContentRegionMax().x;
+  std::string count = "step " + std::to_string(s.step()) + " of " + std::to_string(s.count() - 1);
+  const float right = ImGui::GetWindowContentRegionMax().x;
+  const bool simulated = s.scene().scene.query == Query::simulate;
+  if (simulated && ImGui::GetCursorPosX() + theme.px(300) + ImGui::CalcTextSize(count.c_str()).x > right) count = std::to_string(s.step()) + " / " + std::to_string(s.count() - 1);
+  const float count_width = ImGui::CalcTextSize(count.c_str()).x;
   if (ImGui::GetCursorPosX() + theme.px(190) + count_width > right) {  // no room for more
     ImGui::SameLine(std::max(ImGui::GetCursorPosX(), right - count_width));
     ImGui::TextUnformatted(count.c_str());
@@ -67,7 +72,7 @@ void transport(App& app) {
   if (ImGui::Combo("##speed", &at, speeds, 6)) s.speed = std::pow(2, at - 2);
   ImGui::SameLine();
   ImGui::Checkbox("loop", &s.loop);
-  if (s.scene().scene.query == Query::simulate && ImGui::GetItemRectMax().x + theme.px(110) + count_width < ImGui::GetWindowPos().x + right) {
+  if (simulated && ImGui::GetItemRectMax().x + theme.px(104) + count_width < ImGui::GetWindowPos().x + right) {
     ImGui::SameLine();
     ImGui::Checkbox("real time", &s.real_time);
   }
@@ -149,6 +154,25 @@ void number_bands(const Theme& theme, const std::vector<Band>& bands, ImVec2 at,
   }
 }
 
+/// Breakpoints as discs, bookmarks as their digits, on the lower edge and before all else.
+void marks(const App& app, ImDrawList* draw, float left, float bottom, float cell) {
+  const Theme& theme = app.theme;
+  const Palette& p = theme.palette;
+  const auto place = [&](std::size_t step) { return ImVec2{left + (static_cast<float>(step) + 0.5f) * cell, bottom - theme.px(1)}; };
+  for (const std::size_t step : app.session.breakpoints) {
+    draw->AddCircleFilled(place(step), theme.px(6), packed(p.panel), 20);
+    draw->AddCircleFilled(place(step), theme.px(4.5f), packed(p.newest), 20);
+  }
+  for (const auto& [digit, step] : app.session.bookmarks) {
+    const std::string text = std::to_string(digit);
+    const float size = theme.small->FontSize * 0.85f, half = theme.small->CalcTextSizeA(size, 1000, 0, text.c_str()).x / 2;
+    ImVec2 c = place(step);
+    if (app.session.breakpoints.contains(step)) c.x += theme.px(12);
+    draw->AddRectFilled({c.x - theme.px(6), c.y - theme.px(7)}, {c.x + theme.px(6), c.y + theme.px(6)}, packed(p.accent), theme.px(2));
+    draw->AddText(theme.small, size, {c.x - half, c.y - size / 2 - theme.px(1)}, packed(rgb(0xffffff)), text.c_str());
+  }
+}
+
 /// Iterations as bands, events as ticks; the pointer seeks.
 void scrubber(App& app) {
   Session& s = app.session;
@@ -158,7 +182,8 @@ void scrubber(App& app) {
   ImGui::InvisibleButton("scrubber", size);
   const auto count = static_cast<float>(s.count());
   const float cell = size.x / count;
-  if (ImGui::IsItemActive()) s.playing = false, s.go_to(static_cast<std::size_t>(std::clamp((ImGui::GetIO().MousePos.x - at.x) / cell, 0.f, count - 1)));
+  const bool held = ImGui::IsItemActive(), hovered = ImGui::IsItemHovered();
+  if (held) s.playing = false, s.go_to(static_cast<std::size_t>(std::clamp((ImGui::GetIO().MousePos.x - at.x) / cell, 0.f, count - 1)));
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddRectFilled(at, {at.x + size.x, at.y + size.y}, packed(p.field), theme.px(4));
   std::vector<Band> bands;
@@ -179,25 +204,18 @@ void scrubber(App& app) {
   const float tick = std::clamp(cell * 0.4f, 1.f, theme.px(5));
   for (std::size_t i = 0; i < s.count(); i += stride) {
     const float x = at.x + (static_cast<float>(i) + 0.5f) * cell;
-    draw->AddRectFilled({x - tick / 2, at.y + theme.px(19)}, {x + tick / 2, at.y + size.y - theme.px(6)}, packed(event_colour(p, s.recording().events[i])), 1);
+    const float low = at.y + size.y - theme.px(6), high = at.y + theme.px(19);
+    draw->AddRectFilled({x - tick / 2, low - (low - high) * event_share(s.recording().events[i])}, {x + tick / 2, low}, packed(event_colour(p, s.recording().events[i])), 1);
   }
   if (s.parting() && s.parting()->event < s.count()) {
     const float x = at.x + (static_cast<float>(s.parting()->event) + 0.5f) * cell;
     draw->AddLine({x, at.y}, {x, at.y + size.y}, packed(p.text_soft), theme.px(2));
     draw->AddText(theme.small, theme.small->FontSize * 0.85f, {x + theme.px(4), at.y + theme.px(2)}, packed(p.text_soft), "parts");
   }
-  for (const auto& [digit, step] : s.bookmarks) {
-    const float x = at.x + (static_cast<float>(step) + 0.5f) * cell;
-    draw->AddText(theme.small, theme.small->FontSize * 0.85f, {x - theme.px(3), at.y + size.y - theme.px(14)}, packed(p.accent), std::to_string(digit).c_str());
-  }
   for (const Finding& f : s.findings()) {
     const float x = at.x + (static_cast<float>(f.step) + 0.5f) * cell, r = theme.px(5);
     draw->AddTriangleFilled({x - r, at.y + theme.px(2)}, {x + r, at.y + theme.px(2)}, {x, at.y + theme.px(2) + 1.6f * r}, packed(p.newest));
     draw->AddLine({x, at.y}, {x, at.y + size.y}, packed(p.newest), theme.px(1.5f));
-  }
-  for (const std::size_t b : s.breakpoints) {
-    const float x = at.x + (static_cast<float>(b) + 0.5f) * cell;
-    draw->AddCircleFilled({x, at.y + size.y - theme.px(3)}, theme.px(3), packed(p.newest));
   }
   if (s.loop && (s.loop_from || s.loop_to)) {
     const float x0 = at.x + static_cast<float>(s.loop_from.value_or(0)) * cell, x1 = at.x + static_cast<float>(s.loop_to.value_or(s.count() - 1) + 1) * cell;
@@ -206,30 +224,81 @@ void scrubber(App& app) {
   const float x = at.x + (static_cast<float>(s.step()) + 0.5f) * cell;
   draw->AddLine({x, at.y - theme.px(2)}, {x, at.y + size.y + theme.px(2)}, packed(p.text), theme.px(2));
   draw->AddTriangleFilled({x - theme.px(6), at.y - theme.px(7)}, {x + theme.px(6), at.y - theme.px(7)}, {x, at.y + theme.px(1)}, packed(p.text));
+  marks(app, draw, at.x, at.y + size.y, cell);
+  if (!hovered || held) return;
+  const auto under = static_cast<std::size_t>(std::clamp((ImGui::GetIO().MousePos.x - at.x) / cell, 0.f, count - 1));
+  ImGui::SetTooltip("step %zu  %s  %s", under, short_kind(s.recording().events[under]), summary(s.recording(), under).c_str());
 }
 
 namespace {
 
+/// A colour's kinds, of those that the recording has.
+class LegendEntries {
+ public:
+  explicit LegendEntries(const Recording& recording) : recording_(recording) {
+    for (const Event& event : recording.events) present_[event.index()] = true;
+  }
+  template <class Kind>
+  LegendEntries& name(const std::string& text) {
+    static const std::size_t index = Event(Kind{}).index();
+    if (present_[index] && joined_.find(text) == std::string::npos) joined_ += (joined_.empty() ? "" : ", ") + text;
+    return *this;
+  }
+  /// What was named since the last call; empty where there is none of it.
+  std::string take() { return std::exchange(joined_, {}); }
+  std::string chosen() {
+    return name<recorded::FaceChosen>("nearest " + facet_name(recording_)).name<recorded::PortalFound>("portal").name<recorded::AxisTested>("axis").name<recorded::PointPredicted>("Newton").name<recorded::ContactFound>("contact").take();
+  }
+  std::string simplex() { return name<recorded::SimplexReduced>("simplex").name<recorded::PointsProjected>("points").name<recorded::LinesSolved>("lines").take(); }
+  std::string support() { return name<recorded::SupportQueried>("support").name<recorded::VertexKept>("kept").take(); }
+  std::string polytope() { return name<recorded::PolytopeSeeded>("polytope").name<recorded::PolytopeGrown>("polytope").take(); }
+  std::string motion() { return name<recorded::CastAdvanced>("advance").name<recorded::State>("state").take(); }
+  std::string impulse() { return name<recorded::ImpulseApplied>("impulse").take(); }
+  std::string warning() { return name<recorded::Warning>("warning").take(); }
+
+ private:
+  const Recording& recording_;
+  std::array<bool, std::variant_size_v<Event>> present_{};
+  std::string joined_;
+};
+
+/// The ticks' colours and heights.
 void legend(App& app) {
   const Theme& theme = app.theme;
   const Palette& p = theme.palette;
   ImGui::PushFont(theme.small);
-  using Entries = std::vector<std::pair<const char*, Colour>>;
-  const Entries entries = app.session.scene().scene.motion
-                              ? Entries{{"support", p.support}, {"simplex", p.simplex}, {"advance, state", p.accent}, {"contact", p.chosen}, {"impulse", p.body_b}, {"begin, end", p.text}, {"warning", p.newest}}
-                          : app.session.recording().settings.name == MethodName::projections
-                              ? Entries{{"support", p.support}, {"points, simplex", p.simplex}, {"Newton, face", p.chosen}, {"polytope", p.frontier}, {"begin, end", p.text}, {"warning, finding", p.newest}}
-                              : Entries{{"support", p.support}, {"simplex", p.simplex}, {"face chosen", p.chosen}, {"polytope", p.frontier}, {"begin, end", p.text}, {"warning, finding", p.newest}};
-  for (const auto& [name, colour] : entries) {
+  LegendEntries kinds(app.session.recording());
+  struct Entry {
+    std::string name;
+    Colour colour;
+    float share;
+  };
+  const Entry entries[] = {{kinds.support(), p.support, 0.6f}, {kinds.simplex(), p.simplex, 0.85f}, {kinds.chosen(), p.chosen, 0.4f}, {kinds.polytope(), p.frontier, 1}, {kinds.motion(), p.accent, 1},
+                           {kinds.impulse(), p.body_b, 1}, {"begin, end", p.text, 1}, {kinds.warning(), p.newest, 1}, {app.session.findings().empty() ? "" : "finding", p.newest, 0}};
+  for (const auto& [name, colour, share] : entries) {
+    if (name.empty()) continue;
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    if (ImGui::GetCursorPosX() + theme.px(14) + ImGui::CalcTextSize(name).x > ImGui::GetWindowContentRegionMax().x) break;
-    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + theme.px(4)}, {at.x + theme.px(9), at.y + theme.px(13)}, packed(colour), 2);
+    if (ImGui::GetCursorPosX() + theme.px(14) + ImGui::CalcTextSize(name.c_str()).x > ImGui::GetWindowContentRegionMax().x) break;
+    const float low = at.y + theme.px(14), tall = theme.px(11);
+    ImDrawList* draw = ImGui::GetWindowDrawList();
+    if (share > 0) draw->AddRectFilled({at.x + theme.px(2), low - tall * share}, {at.x + theme.px(7), low}, packed(colour), 1);
+    else draw->AddTriangleFilled({at.x, low - theme.px(9)}, {at.x + theme.px(10), low - theme.px(9)}, {at.x + theme.px(5), low}, packed(colour));
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + theme.px(14));
-    ImGui::TextColored(vec(p.text_faint), "%s", name);
+    ImGui::TextColored(vec(p.text_faint), "%s", name.c_str());
     ImGui::SameLine(0, theme.px(16));
   }
   ImGui::NewLine();
   ImGui::PopFont();
+}
+
+/// Before a row's number: a disc for a breakpoint, a bookmark's digit.
+void row_marks(const App& app, std::size_t step, ImVec2 at) {
+  const Theme& theme = app.theme;
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const float middle = at.y + ImGui::GetTextLineHeight() / 2;
+  if (app.session.breakpoints.contains(step)) draw->AddCircleFilled({at.x + theme.px(4), middle}, theme.px(4), packed(theme.palette.newest), 16);
+  for (const auto& [digit, marked] : app.session.bookmarks)
+    if (marked == step) draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(10), middle - theme.small->FontSize / 2}, packed(theme.palette.accent), std::to_string(digit).c_str());
 }
 
 void event_list(App& app, float width, float height) {
@@ -249,17 +318,20 @@ void event_list(App& app, float width, float height) {
       const auto k = static_cast<std::size_t>(i);
       const Event& event = s.recording().events[k];
       ImGui::PushID(i);
+      const ImVec2 left = ImGui::GetCursorScreenPos();
+      const float end = ImGui::GetContentRegionAvail().x;
       if (ImGui::Selectable("##row", s.step() == k)) s.playing = false, s.go_to(k);
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s: %s", short_kind(event), summary(s.recording(), k).c_str());  // a row may be cut off
-      ImGui::SameLine(theme.px(8));
-      ImGui::TextColored(vec(theme.palette.text_faint), "%4d", i);
+      row_marks(app, k, left);
+      ImGui::SameLine(theme.px(18));
+      ImGui::TextColored(vec(theme.palette.text_faint), "%5d", i);
       const ImVec2 at = ImGui::GetItemRectMax();
       const float middle = at.y - ImGui::GetTextLineHeight() / 2, half = theme.px(4);
       ImGui::GetWindowDrawList()->AddRectFilled({at.x + theme.px(8), middle - half}, {at.x + theme.px(16), middle + half}, packed(event_colour(theme.palette, event)), 2);
-      ImGui::SameLine(theme.px(66));
+      ImGui::SameLine(theme.px(88));
       ImGui::TextUnformatted(short_kind(event));
-      ImGui::SameLine(theme.px(146));
-      ImGui::TextColored(vec(theme.palette.text_soft), "%s", summary(s.recording(), k).c_str());
+      ImGui::SameLine(theme.px(164));
+      ImGui::TextColored(vec(theme.palette.text_soft), "%s", shortened(theme.mono, summary(s.recording(), k), end - theme.px(164)).c_str());
       ImGui::PopID();
     }
   ImGui::EndChild();

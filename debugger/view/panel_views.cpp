@@ -109,7 +109,7 @@ void body_handles(App& app, const Projection& projection, ImDrawList* draw, Held
     } else {
       body.pose.position += projection.move(delta.x, delta.y).head(dimension);
     }
-    app.message = app.session.edit(next);
+    app.edit(next);
   }
 }
 
@@ -165,11 +165,10 @@ void interact(App& app, const Area& area, const Shown& shown, Camera& camera, co
   if (!ImGui::IsItemHovered()) return;
   const auto under = vertex_under(items, ImGui::GetIO().MousePos, theme.px(11));
   pointed = under;
-  if (const auto found = under ? app.session.frame().vertices.find(*under) : app.session.frame().vertices.end(); found != app.session.frame().vertices.end() && !shown.other) {
+  const auto& vertices = (shown.other ? app.session.other_frame() : app.session.frame()).vertices;
+  if (const auto found = under ? vertices.find(*under) : vertices.end(); found != vertices.end()) {
     const FrameVertex& v = found->second;
     ImGui::SetTooltip("vertex #%d\nw = %s\na = %s\nb = %s\nclick to select", *under, short_vector(v.w).c_str(), short_vector(v.a).c_str(), short_vector(v.b).c_str());
-  } else if (under) {
-    ImGui::SetTooltip("vertex #%d: click to select", *under);
   }
   const ImVec2 drag = ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 0);
   if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && std::hypot(drag.x, drag.y) < 3) app.settings.selected = under;
@@ -182,6 +181,7 @@ void one_view(App& app, const Area& area, const Shown& shown, bool interactive, 
   ImGui::PushStyleColor(ImGuiCol_ChildBg, vec(theme.palette.view));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   begin_area(shown.other ? "other" : shown.world ? "world" : "difference", area);
+  ImGui::PopStyleVar();  // tooltips have their padding
   ImDrawList* draw = ImGui::GetWindowDrawList();
   Camera& camera = shown.world ? app.world_camera : app.difference_camera;
   const double header = theme.px(48);
@@ -201,7 +201,6 @@ void one_view(App& app, const Area& area, const Shown& shown, bool interactive, 
   draw->AddText(theme.small, theme.small->FontSize, {title.x, title.y + theme.px(20)}, packed(theme.palette.text_faint), shortened(theme.small, subtitle_of(app, shown), room).c_str());
   if (interactive) interact(app, area, shown, camera, projection, items, pointed);
   ImGui::EndChild();
-  ImGui::PopStyleVar();
   ImGui::PopStyleColor();
 }
 

@@ -73,8 +73,8 @@ struct PseudoCodeOf {
   }
 
   PseudoCode sat(int line) const {
-    const bool plane = recording.scene.scene.dimension == 2;
-    return {"SAT", {plane ? "for n in normals of edges of A," : "for n in faces of A, faces of B,", plane ? "         of edges of B" : "         edge of A x edge of B", "  w = support(n)", "  if n.w < 0: apart", "  depth = min(depth, n.w)", "overlap, depth"}, line};
+    const bool plane = recording.scene.scene.dimension == 2, yes_or_no = recording.scene.scene.query == Query::intersect;
+    return {"SAT", {plane ? "for n in normals of edges of A," : "for n in faces of A, faces of B,", plane ? "         of edges of B" : "         edge of A x edge of B", "  w = support(n)", yes_or_no ? "  if n.w < 0: apart" : "  if n.w < 0: apart, by -n.w or more", "  depth = min(depth, n.w)", "no gap: overlap, depth"}, line};
   }
   PseudoCode operator()(const recorded::SatBegan&) const { return sat(0); }
   PseudoCode operator()(const recorded::AxisTested& e) const { return sat(e.distance > 0 ? 3 : 4); }
@@ -91,7 +91,7 @@ struct PseudoCodeOf {
   PseudoCode operator()(const recorded::SatEnded& e) const { return sat(e.status == SatStatus::separated ? 3 : e.status == SatStatus::overlapping ? 5 : no_line); }
 
   PseudoCode closed_form(int line) const {
-    return {"Closed form", {"c = a0 - b0;  w = c + s u - t v", "s = (u.v c.v - v.v c.u) / det", "clamp s to 0 .. 1", "t = (c + s u).v / v.v", "if t out of range: clamp it, s again", "distance = |w|, or depth if O inside"}, line};
+    return {"Closed form", {"c = a0 - b0;  v = c + s p - t q", "s = (p.q c.q - q.q c.p) / det", "clamp s to 0 .. 1", "t = (c + s p).q / q.q", "if t out of range: clamp it, s again", "distance = |v|, or depth if O inside"}, line};
   }
   PseudoCode operator()(const recorded::ClosedFormBegan&) const { return closed_form(0); }
   PseudoCode operator()(const recorded::LinesSolved&) const { return closed_form(1); }
@@ -127,7 +127,7 @@ struct PseudoCodeOf {
     const char* support = settings.name != MethodName::gjk_accelerated ? "  w = support(-v)" : settings.acceleration == Acceleration::newton ? "  w = support(Newton's d or -v)" : "  w = support(momentum's d or -v)";
     return {foreign(recording) ? "GJK, distance form; yours may differ" : "GJK, distance form",
             {settings.start == Start::previous ? "W = last simplex, or { support(d) }" : "w = support(d);  W = { w }", "repeat", "  v = point of W nearest O", "  W = the part of W that holds v",
-             yes_or_no ? "  if |v| <= radii: overlap" : "  if v = O: overlap", support, yes_or_no ? "  if w short of O: apart" : rounded(recording.scene.scene) ? "  if w no nearer O: |v| - radii" : "  if w no nearer O: distance |v|", "  W = { w } + W"},
+             yes_or_no ? "  if |v| <= radii: overlap" : "  if v = O: overlap", support, yes_or_no ? "  if w short of O: apart" : rounded(recording.scene.scene) ? "  if w no farther along -v: |v| - radii" : "  if w no farther along -v: |v|", "  W = { w } + W"},
             line};
   }
   PseudoCode operator()(const recorded::GjkBegan&) const { return gjk(0); }

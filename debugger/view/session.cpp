@@ -297,9 +297,8 @@ std::string Session::edit(const SceneFile& next) {
       }
     }
     Recording recording = record_from_here(next);
-    const SceneFile before = recording_.scene;
+    if (!grouping_ || !edit_open_) undo_.push_back(now());
     take(std::move(recording));
-    if (!grouping_ || !edit_open_) undo_.push_back(before);
     edit_open_ = grouping_;
     redo_.clear();
     return {};
@@ -308,20 +307,27 @@ std::string Session::edit(const SceneFile& next) {
   }
 }
 
+void Session::go_back_to(Past past) {
+  if (!past.run) return take(record(past.scene));
+  std::vector<Finding> findings = check(*past.run);
+  take(std::move(*past.run));
+  findings_ = std::move(findings);
+}
+
 void Session::undo() {
   if (undo_.empty()) return;
-  redo_.push_back(recording_.scene);
-  const SceneFile back = undo_.back();
+  redo_.push_back(now());
+  Past back = std::move(undo_.back());
   undo_.pop_back();
-  take(record(back));
+  go_back_to(std::move(back));
 }
 
 void Session::redo() {
   if (redo_.empty()) return;
-  undo_.push_back(recording_.scene);
-  const SceneFile forward = redo_.back();
+  undo_.push_back(now());
+  Past forward = std::move(redo_.back());
   redo_.pop_back();
-  take(record(forward));
+  go_back_to(std::move(forward));
 }
 
 }  // namespace gjkdbg

@@ -102,7 +102,14 @@ class Session {
   std::size_t step_ = 0;
   double waited_ = 0;
   int opened_ = 0;
-  std::vector<SceneFile> undo_, redo_;
+  /// What an edit replaced: another program's run cannot be made again from its scene.
+  struct Past {
+    SceneFile scene;
+    std::optional<Recording> run;
+  };
+  Past now() const { return {recording_.scene, foreign(recording_) ? std::optional(recording_) : std::nullopt}; }
+  void go_back_to(Past past);
+  std::vector<Past> undo_, redo_;
   bool grouping_ = false, edit_open_ = false;
 
   Recording other_;

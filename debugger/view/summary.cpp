@@ -14,12 +14,12 @@ std::string short_number(double x) {
   return text;
 }
 
-std::string short_vector(const AnyVector& v) {
+std::string short_vector(const AnyVector& v, int digits) {
   std::string out = "(";
   for (Eigen::Index i = 0; i < v.size(); ++i) {
     char text[32];
     const bool nothing = std::abs(v[i]) <= 4e-16 * v.cwiseAbs().maxCoeff();  // beside the rest
-    std::snprintf(text, sizeof text, "%.4g", nothing ? 0.0 : v[i]);
+    std::snprintf(text, sizeof text, "%.*g", digits, nothing ? 0.0 : v[i]);
     out += (i > 0 ? ", " : "") + std::string(text);
   }
   return out + ")";
@@ -62,7 +62,11 @@ struct Summarise {
   std::string operator()(const recorded::SimplexReduced& e) const {
     return letters(e.before, e.before) + " -> " + letters(e.region, e.before) + (e.closest.size() > 0 ? "  |v| = " + short_number(e.closest.norm()) : "");
   }
-  std::string operator()(const recorded::GjkEnded& e) const { return std::string(gjk_status_names[static_cast<std::size_t>(e.status)]); }
+  /// A solver's is put down from its answer.
+  std::string operator()(const recorded::GjkEnded& e) const {
+    if (foreign(recording) && e.status != GjkStatus::aborted) return e.status == GjkStatus::enclosed || e.status == GjkStatus::touching || e.status == GjkStatus::within_radius ? "taken to overlap" : "taken to be apart";
+    return std::string(gjk_status_names[static_cast<std::size_t>(e.status)]);
+  }
   std::string operator()(const recorded::PolytopeSeeded& e) const { return std::to_string(e.vertices.size()) + " vertices, " + std::to_string(e.faces.size()) + " " + facet_name(recording) + "s"; }
   std::string operator()(const recorded::FaceChosen& e) const { return facet_name(recording) + " " + std::to_string(e.face) + " at " + short_number(e.distance); }
   std::string operator()(const recorded::PolytopeGrown& e) const { return "-" + std::to_string(e.removed.size()) + " +" + std::to_string(e.added.size()) + " " + facet_name(recording) + "s"; }
@@ -73,7 +77,7 @@ struct Summarise {
   std::string operator()(const recorded::MprBegan& e) const { return "from " + short_vector(e.interior); }
   std::string operator()(const recorded::PortalFound& e) const { return "portal at " + short_number(e.distance); }
   std::string operator()(const recorded::MprEnded& e) const {
-    return std::string(mpr_status_names[static_cast<std::size_t>(e.status)]) + "  depth " + short_number(e.depth);
+    return std::string(mpr_status_names[static_cast<std::size_t>(e.status)]) + (e.status == MprStatus::separated ? "  gap " + short_number(-e.depth) : "  depth " + short_number(e.depth));
   }
   std::string operator()(const recorded::SatBegan& e) const { return std::to_string(e.faces_a) + " + " + std::to_string(e.faces_b) + " faces, " + std::to_string(e.edge_pairs) + " edge pairs"; }
   std::string operator()(const recorded::AxisTested& e) const { return (e.distance > 0 ? "gap " : "overlap ") + short_number(std::abs(e.distance)); }

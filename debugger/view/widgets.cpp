@@ -76,22 +76,30 @@ void number_row(App& app, const char* label, const std::string& value, Colour co
   ImGui::SetTooltip("%s", tip.c_str());
 }
 
-namespace {
-
 std::string all_digits(double x) {
   char text[40];
   std::snprintf(text, sizeof text, "%.17g", x);
   return text;
 }
 
-}  // namespace
+std::string at_the_point(double value) {
+  constexpr std::size_t most = 7;  // characters from the point on
+  const auto from_the_point = [](const std::string& text) { return text.size() - std::min(text.find_first_of(".e"), text.size()); };
+  std::string text = short_number(value);
+  if (from_the_point(text) > most) {
+    char fewer[32];
+    std::snprintf(fewer, sizeof fewer, std::abs(value) < 1e-2 || text.find('e') != std::string::npos ? "%.2e" : "%.6f", value);
+    text = fewer;
+  }
+  return text.append(most - std::min(most, from_the_point(text)), ' ');
+}
 
 void number_row(App& app, const char* label, double value, Colour colour, std::optional<std::size_t> source) { number_row(app, label, short_number(value), colour, source, all_digits(value)); }
 
-void number_row(App& app, const char* label, const AnyVector& value, Colour colour, std::optional<std::size_t> source) {
+void number_row(App& app, const char* label, const AnyVector& value, Colour colour, std::optional<std::size_t> source, int digits) {
   std::string exact;
   for (const double x : value) exact += (exact.empty() ? "(" : ", ") + all_digits(x);
-  number_row(app, label, short_vector(value), colour, source, exact + ")");
+  number_row(app, label, short_vector(value, digits), colour, source, exact + ")");
 }
 
 bool tab_button(const Theme& theme, const char* name, bool current, float width) {
@@ -149,8 +157,21 @@ Colour event_colour(const Palette& p, const Event& event) {
   return std::visit(colours, event);
 }
 
+namespace {
+
+template <class... Kinds>
+bool one_of(const Event& event) { return (std::holds_alternative<Kinds>(event) || ...); }
+
+}  // namespace
+
+float event_share(const Event& event) {
+  if (one_of<recorded::FaceChosen, recorded::PortalFound, recorded::AxisTested, recorded::PointPredicted, recorded::ContactFound>(event)) return 0.4f;
+  if (one_of<recorded::SupportQueried, recorded::VertexKept>(event)) return 0.6f;
+  return one_of<recorded::SimplexReduced, recorded::PointsProjected, recorded::LinesSolved>(event) ? 0.85f : 1.f;
+}
+
 const char* short_kind(const Event& event) {
-  static const char* const names[] = {"begin", "kept", "support", "simplex", "end", "polytope", "face", "grow", "end", "begin", "portal", "end", "begin", "axis", "points", "end", "begin", "lines", "end", "begin", "newton", "end", "begin", "advance", "end", "state", "contact", "impulse", "warning"};
+  static const char* const names[] = {"begin", "kept", "support", "simplex", "end", "polytope", "nearest", "grow", "end", "begin", "portal", "end", "begin", "axis", "points", "end", "begin", "lines", "end", "begin", "newton", "end", "begin", "advance", "end", "state", "contact", "impulse", "warning"};
   static_assert(std::size(names) == std::variant_size_v<Event>);
   return names[event.index()];
 }
@@ -181,6 +202,8 @@ bool answers_agree(const Result& a, const Result& b) {
   return !unanswered(a) && !unanswered(b) && a.intersecting == b.intersecting && near(a.signed_distance, b.signed_distance) && near(a.time, b.time) && near(a.energy, b.energy);
 }
 
+bool unproven(const Result& r) { return r.signed_distance && r.lower_bound && r.upper_bound && *r.upper_bound - *r.lower_bound > 1e-4 * std::abs(*r.signed_distance); }
+
 std::string result_text(const Recording& recording) {
   const Result& r = recording.result;
   if (recording.scene.scene.query == Query::simulate) return "time " + short_number(r.time.value_or(0)) + ", energy " + short_number(r.energy.value_or(0));
@@ -189,7 +212,8 @@ std::string result_text(const Recording& recording) {
   std::string text = r.intersecting ? "overlapping" : "apart";
   if (r.signed_distance) {
     const double d = *r.signed_distance;
-    text = d > 0 ? "apart, distance " + short_number(d) : d == 0 ? "touching" : "overlapping, depth " + short_number(-d);
+    const std::string at_most = unproven(r) ? "at most " : "";
+    text = d > 0 ? "apart, distance " + at_most + short_number(d) : d == 0 ? "touching" : "overlapping, depth " + at_most + short_number(-d);
     if (recording.scene.scene.query == Query::distance && r.intersecting) text = "overlapping";
   }
   return text;

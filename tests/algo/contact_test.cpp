@@ -180,5 +180,24 @@ TEST(Contact, ACylinderThatSlidesComesToRollStraight) {
   EXPECT_LE(std::abs(s.velocity[0]) + std::abs(s.position[0]), 1e-6) << "it does not turn aside";
 }
 
+/// Its sides would be looked for along a normal that is none of theirs (sim-log-pile with a limit of 2: contacts beside both logs).
+TEST(ContactPoints, OfARunThatEndedAtItsLimitAreTheWitnesses) {
+  Scene scene;
+  scene.query = Query::contact;
+  scene.bodies = {{"A", {Cylinder{0.5, 1, 2}, 0}, identity_pose(3)}, {"B", {Cylinder{0.5, 1, 2}, 0}, identity_pose(3)}};
+  scene.bodies[1].pose.position = Eigen::Vector3d(0.99, 0, 0.1);
+  int limited = 0;
+  for (int limit = 1; limit <= 40; ++limit) {
+    Method method;
+    method.max_iterations = limit;
+    const Result r = solve(scene, resolve_settings(method, scene));
+    if (!r.contacts || !r.intersecting || r.status != "iteration_limit") continue;
+    ASSERT_EQ(r.contacts->size(), 1u) << limit;
+    EXPECT_EQ((*r.contacts)[0].point_a, *r.witness_a);
+    ++limited;
+  }
+  EXPECT_GT(limited, 2);
+}
+
 }  // namespace
 }  // namespace gjkdbg

@@ -5,13 +5,11 @@
 #include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "algo/motion.h"
 #include "recordings/comparison.h"
 #include "recordings/gallery.h"
 #include "recordings/json_writing.h"
-#include "recordings/mesh_parts.h"
 #include "recordings/replay.h"
 #include "tests/oracle/exact_polytopes.h"
 #include "tests/oracle/wide_gjk.h"
@@ -144,6 +142,16 @@ TEST(Replay, SeekingEqualsPlaying) {
 }
 
 /// The step that shows the answer shows its bounds, not those of the growth or the axis before.
+/// Who looks at a step twice has the same frame, not one filled anew under his hands.
+TEST(Replay, KeepsTheFrameOfAStep) {
+  const Recording recording = record(read_scene(gallery().file("box-box-deep")));
+  Replay replay(recording);
+  const FrameVertex* vertex = &replay.at(8).vertices.at(1);
+  EXPECT_EQ(vertex, &replay.at(8).vertices.at(1));
+  EXPECT_TRUE(replay.at(9) == frame_at(recording, 9));
+  EXPECT_TRUE(replay.at(9) == frame_at(recording, 9));
+}
+
 TEST(Replay, EpaAndSatEndWithTheBoundsOfTheResult) {
   int ends = 0, of_sat = 0;
   for_gallery([&](const SceneFile& file) {
@@ -209,27 +217,6 @@ TEST(Replay, NothingOfARunHoldsOnInAState) {
     ++states;
   }
   EXPECT_EQ(states, 2);
-}
-
-TEST(MeshParts, CountTheRuns) {
-  const Recording ball = record(read_scene(gallery().file("level-mesh")));
-  EXPECT_EQ(mesh_parts(ball, 0)->triangle, (std::array<int, 2>{-1, 0}));
-  std::set<int> seen;
-  for (std::size_t i = 0; i < ball.events.size(); ++i) {
-    const auto parts = mesh_parts(ball, i);
-    ASSERT_TRUE(parts);
-    EXPECT_EQ(parts->runs, 3);
-    seen.insert(parts->triangle[1]);
-    // Every support of the mesh is a corner of the triangle that is named.
-    if (const auto* query = std::get_if<recorded::SupportQueried>(&ball.events[i])) {
-      const Shape triangle = triangle_of(ball.scene.scene.bodies[1].shape, static_cast<std::size_t>(parts->triangle[1]));
-      const auto& corners = std::get<PointSet>(triangle.geometry).points;
-      EXPECT_TRUE(std::any_of(corners.begin(), corners.end(), [&](const AnyVector& c) { return (c - query->b).norm() < 1e-12; })) << i;
-    }
-  }
-  EXPECT_EQ(seen, (std::set<int>{0, 1, 2}));
-  const Recording boxes = record(read_scene(gallery().file("box-box-deep")));
-  EXPECT_FALSE(mesh_parts(boxes, 0));
 }
 
 // --- Bad input: one clear line, never a crash ----------------------------------------------------------------------
