@@ -134,8 +134,10 @@ class MinkowskiDifference {
   S radius_a() const { return static_cast<S>(a_.radius()); }
   S radius_b() const { return static_cast<S>(b_.radius()); }
   bool polytope() const { return a_.polytope() && b_.polytope(); }
-  /// From A's reference point towards B's: a good first direction.
+  /// B's reference point, seen from A's.
   const V& position() const { return pose_.position; }
+  /// A good first direction: from A's reference point towards B's, whatever its length; where they are one, any.
+  V towards_b() const { return pose_.position.squaredNorm() > std::sqrt(std::numeric_limits<S>::min()) ? pose_.position : next_to_each_other(); }
 
   /// How far a computed support may be off, with u half an ulp of 1 and m = extent_a + extent_b + |p|: forming R b + p - a rounds 5 times, its
   /// product with a unit direction 5 times. An element of R is a sum of three products of the elements of two rotations: off by at most
@@ -144,6 +146,14 @@ class MinkowskiDifference {
   S rounding_floor() const { return rounding_floor_; }
 
  private:
+  /// A vector whose square vanishes has a direction all the same.
+  [[gnu::noinline]] V next_to_each_other() const {
+    const S most = pose_.position.cwiseAbs().maxCoeff();
+    if (!(most > 0)) return V::Unit(0);
+    const V longer = pose_.position / most;
+    return longer / longer.norm();
+  }
+
   /// Takes a function, so that the pose is written where it stays: copying what was just written number by number is what a processor waits for.
   template <class Pose>
     requires std::is_invocable_v<Pose>

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <limits>
 
+#include "algo/signed_volumes.h"
 #include "algo/simplex.h"
 #include "algo/trace.h"
 
@@ -40,6 +41,8 @@ struct MprResult {
   S depth = 0;                                 ///< of the bodies along `normal`; negative when separated
   S lower_bound = 0, upper_bound = 0;          ///< of the bodies' depth, valid unless separated
   Vector<D, S> point_a = Vector<D, S>::Zero(), point_b = Vector<D, S>::Zero();  ///< where the ray leaves the portal
+  Vector<D, S> way_a = Vector<D, S>::Zero(), way_b = Vector<D, S>::Zero();  ///< of the depth: points of the portal with a - b nearest to depth * normal …
+  S off = 0;                                                                ///< … and how far it is from it: 0 where they lie on the way out
   bool decided = true;                         ///< false: no plane that separates, and no portal with the origin on its inner side
   bool overlapping() const { return status != MprStatus::separated; }  ///< if decided
 };
@@ -257,6 +260,7 @@ class Mpr {
     result_.lower_bound = std::max(S(0), lower_) - 2 * floor_;  // what is taken for the inner side may be beyond by a floor
     result_.upper_bound = upper_ + floor_;
     leave_at_the_portal();
+    if (options_.depth && result_.overlapping() && status != MprStatus::flat) lie_on_the_way_out();
     trace_(MprEnded<V, Viewed>{result_.iterations, status, result_.normal, static_cast<double>(result_.depth)});
     return result_;
   }
@@ -278,6 +282,18 @@ class Mpr {
       result_.point_a += share * portal_[i].a;
       result_.point_b += share * portal_[i].b;
     }
+  }
+
+  void lie_on_the_way_out() {
+    const V out = result_.normal * result_.depth;
+    std::array<V, D + 1> from_out;
+    for (int i = 0; i < portal_size_; ++i) from_out[i] = w(i) - out;
+    const ClosestFeature<D, S> nearest = SignedVolumes<D, S>::closest(from_out.data(), portal_size_);
+    for (int i = 0; i < nearest.count; ++i) {
+      result_.way_a += nearest.weight[i] * portal_[nearest.index[i]].a;
+      result_.way_b += nearest.weight[i] * portal_[nearest.index[i]].b;
+    }
+    result_.off = std::sqrt(nearest.v_squared);
   }
 
   Difference& difference_;

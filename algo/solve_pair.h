@@ -122,8 +122,7 @@ class PairSolver {
       const Vector<D, double> local = frame_.rotation.transpose() * (world / world.cwiseAbs().maxCoeff());
       return local.template cast<S>();
     }
-    if (!axis_.isZero(0)) return axis_;
-    return difference_.position().isZero(0) ? V(V::Unit(0)) : difference_.position();
+    return axis_.isZero(0) ? difference_.towards_b() : axis_;
   }
 
   void boolean() {
@@ -214,8 +213,18 @@ class PairSolver {
     return length > 0 ? V(center + std::min(S(1), v0.norm() / length) * (found.point_a - center)) : center;
   }
 
+  /// The points of the portal nearest to the way out are the witnesses where they are that way apart; where the portal is a part of a larger face, or of another
+  /// than the normal's, the bodies are moved apart along it. Where their depth is less, no points of both lie the way out apart.
   void portal_depth(const MprResult<D, S>& found) {
-    witnesses(found.point_a, found.point_b, found.normal, S(static_cast<double>(-found.depth) + radius_), true);
+    const S cores = S(static_cast<double>(-found.depth) + radius_);
+    if (found.off <= 8 * difference_.rounding_floor()) {
+      witnesses(found.way_a, found.way_b, found.normal, cores, true);
+    } else {
+      const GjkResult<D, S> touching = push_apart(found.normal, -cores);
+      const V a = touching.simplex.point_a(), b = touching.simplex.point_b() - push_;
+      if ((a - b + cores * found.normal).norm() < found.off) witnesses(a, b, found.normal, cores);
+      else witnesses(found.way_a, found.way_b, found.normal, cores, true);
+    }
     result_->lower_bound = length(-static_cast<double>(found.upper_bound));
     result_->upper_bound = length(-static_cast<double>(found.lower_bound));
   }
@@ -302,7 +311,7 @@ class PairSolver {
     if (known) {
       a = known->a, b = known->b;
     } else {
-      const GjkResult<D, S> touching = push_apart(found);
+      const GjkResult<D, S> touching = push_apart(found.normal, found.depth);
       a = touching.simplex.point_a(), b = touching.simplex.point_b() - push_;
     }
     set_bounds(-found.depth - difference_.rounding_floor(), -found.depth + difference_.rounding_floor());
@@ -310,12 +319,12 @@ class PairSolver {
   }
 
   /// With body 1 moved out along the normal, by the depth and some more, the closest points are the witnesses.
-  GjkResult<D, S> push_apart(const SatResult<D, S>& found) {
+  GjkResult<D, S> push_apart(const V& normal, S depth) {
     const S beyond = difference_.rounding_floor() / (8 * std::numeric_limits<S>::epsilon());
-    push_ = found.normal * (found.depth + beyond);
+    push_ = normal * (depth + beyond);
     Difference apart = difference_.moved(push_);
     GjkOptions<D, S> options;
-    options.direction = V(-found.normal);
+    options.direction = V(-normal);
     NoTrace silent;
     GjkResult<D, S> nearest;
     gjk<SignedVolumes<D, S>>(apart, options, silent, nearest);

@@ -292,6 +292,8 @@ class RecordCheck {
   AnyVector first_;  ///< the direction GJK says it begins with, until it has
   int iterations_ = 0, supports_ = 0, newest_ = -1, last_face_ = -1;
   std::set<std::string> statuses_;            ///< of the phases that ended
+  std::string_view last_status_;              ///< of these
+  std::optional<double> nearest_projected_;   ///< how far apart the bodies are by the points projected last
   int iteration_ = 0;                         ///< of the phase, so far
   bool counted_ = false;                      ///< whether it was seen to begin
   std::vector<int> simplex_, asked_;          ///< GJK's: kept, and asked for since; newest first

@@ -136,7 +136,7 @@ void RecordCheck::judge(const recorded::SimplexReduced& e) {
 /// Whether a run may end so: with a simplex that has a volume, or without, at its limit, and with these bounds.
 void RecordCheck::judge(const recorded::GjkEnded& e) {
   const std::string status(gjk_status_names[static_cast<std::size_t>(e.status)]);
-  statuses_.insert(status);
+  statuses_.insert(status), last_status_ = gjk_status_names[static_cast<std::size_t>(e.status)];
   const bool whole = static_cast<int>(simplex_.size()) == c_.dimension + 1;
   const bool apart = e.status == GjkStatus::converged || e.status == GjkStatus::separated || e.status == GjkStatus::stalled;
   if ((e.status == GjkStatus::enclosed && !whole) || (apart && whole)) contradiction("GJK ended as \"" + status + "\" with the simplex " + list_of(simplex_) + (whole ? ", which encloses the origin." : ", which encloses nothing."));
@@ -206,7 +206,7 @@ void RecordCheck::judge(const recorded::PolytopeGrown& e) {
 
 /// A face once chosen: the best one, which a later step may have removed. (What shows the bodies apart before there is a polytope to report is none of them.)
 void RecordCheck::judge(const recorded::EpaEnded& e) {
-  statuses_.emplace(epa_status_names[static_cast<std::size_t>(e.status)]);
+  statuses_.emplace(epa_status_names[static_cast<std::size_t>(e.status)]), last_status_ = epa_status_names[static_cast<std::size_t>(e.status)];
   lower_ = -height_ - radius();
   if (e.status == EpaStatus::flat || e.status == EpaStatus::separated) lower_ = upper_ = unknowable;
   if (e.status == EpaStatus::flat && e.face >= 0) contradiction("EPA ended at face " + std::to_string(e.face) + " of a polytope that is flat: it has none.");
@@ -220,12 +220,16 @@ void RecordCheck::judge(const recorded::PortalFound& e) {
   if (static_cast<int>(e.vertices.size()) != c_.dimension) contradiction("The portal " + list_of(e.vertices) + " has " + std::to_string(e.vertices.size()) + " vertices instead of " + std::to_string(c_.dimension) + ".");
 }
 void RecordCheck::judge(const recorded::MprEnded& e) {
-  statuses_.emplace(mpr_status_names[static_cast<std::size_t>(e.status)]);
+  statuses_.emplace(mpr_status_names[static_cast<std::size_t>(e.status)]), last_status_ = mpr_status_names[static_cast<std::size_t>(e.status)];
+  const double length = e.normal.norm();
+  if (length > 0 && std::abs(length - 1) > 1e-4) contradiction("The normal " + text_of(e.normal) + " has length " + text_of(length) + " instead of 1.");
+  const bool apart = e.status == MprStatus::separated;
+  if (e.status != MprStatus::flat && (apart ? e.depth > c_.tolerance : e.depth < -c_.tolerance)) contradiction("MPR ended as \"" + std::string(last_status_) + "\", with a depth of " + text_of(e.depth) + ".");
   lower_ = upper_ = unknowable;
 }
 
 /// A pair of edges of which one has no faces beside it is an axis both ways.
-void RecordCheck::judge(const recorded::SatBegan& e) { axes_ = {e.faces_a, e.faces_b, 2 * e.edge_pairs}, plane_ = -unknown; }
+void RecordCheck::judge(const recorded::SatBegan& e) { axes_ = {e.faces_a, e.faces_b, 2 * e.edge_pairs}, plane_ = -unknown, nearest_projected_.reset(); }
 void RecordCheck::judge(const recorded::AxisTested& e) {
   leads_on(e.direction, axis_, "its support");
   if (e.vertex != newest_) contradiction("Vertex " + std::to_string(e.vertex) + " is said to be the farthest along the axis, but the last one asked for is " + std::to_string(newest_) + ".");
@@ -235,7 +239,10 @@ void RecordCheck::judge(const recorded::AxisTested& e) {
 }
 void RecordCheck::judge(const recorded::SatEnded& e) {
   if (e.status != SatStatus::separated && axes_[0] + axes_[1] > 0) contradiction(std::to_string(axes_[0] + axes_[1]) + " faces have not been looked along, and no axis separates.");
-  statuses_.emplace(sat_status_names[static_cast<std::size_t>(e.status)]);
+  statuses_.emplace(sat_status_names[static_cast<std::size_t>(e.status)]), last_status_ = sat_status_names[static_cast<std::size_t>(e.status)];
+  const bool known = c_.has_supports || radius_between_;
+  if (known && differ(e.distance, plane_) && differ(e.distance, nearest_projected_.value_or(plane_)))
+    contradiction("SAT ends with a distance of " + text_of(e.distance) + ", but the steps before give " + text_of(nearest_projected_.value_or(plane_)) + ".");
   lower_ = upper_ = unknowable;
 }
 
@@ -268,7 +275,7 @@ void RecordCheck::judge(const recorded::LinesSolved& e) {
 }
 
 void RecordCheck::judge(const recorded::ClosedFormEnded& e) {
-  ++iterations_, statuses_.emplace(closed_form_status_names[static_cast<std::size_t>(e.status)]);
+  ++iterations_, statuses_.emplace(closed_form_status_names[static_cast<std::size_t>(e.status)]), last_status_ = closed_form_status_names[static_cast<std::size_t>(e.status)];
   lower_ = e.lower_bound, upper_ = e.upper_bound;
 }
 
@@ -285,9 +292,10 @@ void RecordCheck::judge(const recorded::PointPredicted& e) { projected_from_ = e
 void RecordCheck::judge(const recorded::PointsProjected& e) {
   if (projected_from_.size() == e.b.size()) nearest_to(1, e.b, projected_from_);
   nearest_to(0, e.a, e.b);
+  nearest_projected_ = e.closest.norm() - radius();
 }
 void RecordCheck::judge(const recorded::ProjectionsEnded& e) {
-  statuses_.emplace(projections_status_names[static_cast<std::size_t>(e.status)]);
+  statuses_.emplace(projections_status_names[static_cast<std::size_t>(e.status)]), last_status_ = projections_status_names[static_cast<std::size_t>(e.status)];
   lower_ = e.lower_bound, upper_ = e.upper_bound;
 }
 
@@ -331,6 +339,7 @@ void RecordCheck::motion() {
   const Result& r = c_.recording.result;
   if (!ours_ || r.status == "aborted") return;
   const bool simulated = c_.recording.scene.scene.query == Query::simulate;
+  if (simulated && r.status != "completed") contradiction("The result's status is \"" + r.status + "\", but a simulation runs to its end: \"completed\".");
   if (const int right = simulated ? iterations_ : cast_iterations_.value_or(r.iterations); r.iterations != right) contradiction("The result counts " + std::to_string(r.iterations) + " iterations, the steps " + std::to_string(right) + ".");
   if (r.support_calls < supports_) contradiction("The result counts " + std::to_string(r.support_calls) + " support calls, but " + std::to_string(supports_) + " were made.");
 }
@@ -354,6 +363,7 @@ void RecordCheck::result() {
   if (!ours_ || statuses_.empty()) return;
   if (const std::string wrong = not_as_asked(); !wrong.empty()) contradiction("The scene asks for \"" + std::string(query_names[static_cast<std::size_t>(c_.recording.scene.scene.query)]) + "\", but the result " + wrong + ".");
   if (!statuses_.contains(r.status)) contradiction("The result's status is \"" + r.status + "\", with which no phase ended.");
+  else if (c_.has_supports && r.status != last_status_) contradiction("The result's status is \"" + r.status + "\", but the last phase ended as \"" + std::string(last_status_) + "\".");
   const AnyVector* at[] = {r.witness_a ? &*r.witness_a : nullptr, r.witness_b ? &*r.witness_b : nullptr};
   if (r.signed_distance && r.intersecting != (*r.signed_distance <= 0)) contradiction(std::string("The bodies are called ") + (r.intersecting ? "overlapping" : "apart") + ", at a signed distance of " + text_of(*r.signed_distance) + ".");
   if (r.signed_distance && r.normal && at[0] && at[1]) {
@@ -363,7 +373,7 @@ void RecordCheck::result() {
   if (r.iterations != iterations_) contradiction("The result counts " + std::to_string(r.iterations) + " iterations, the phases " + std::to_string(iterations_) + ".");
   if (c_.recording.scene.scene.query == Query::distance) lower_ = std::max(lower_, 0.0), upper_ = r.intersecting ? unknowable : upper_;
   if (c_.has_supports && r.lower_bound && r.upper_bound) same_bounds("The result's", *r.lower_bound, *r.upper_bound);
-  const bool more = c_.recording.settings.name == MethodName::sat;  // to find which corners meet, without a trace
+  const bool more = c_.recording.settings.name == MethodName::sat || c_.recording.settings.name == MethodName::mpr || c_.recording.settings.penetration == Penetration::mpr;  // to find which points meet, without a trace
   if (r.support_calls < supports_ || (r.support_calls > supports_ && !more)) contradiction("The result counts " + std::to_string(r.support_calls) + " support calls, but " + std::to_string(supports_) + " were made.");
 }
 

@@ -24,7 +24,7 @@ struct Judge {
   const Result& r;
   const Result& right;  ///< penetration query
   double limit;        ///< absolute, on distances
-  bool portal;         ///< the depth is MPR's
+  bool portal;         ///< the depth is MPR's, and more than the right one
   bool limited;        ///< says itself that it is not exact
 
   void answer(double best_plane) const {
@@ -103,16 +103,18 @@ struct Judge {
 
   bool measured() const { return r.normal && r.signed_distance; }
   /// b - a = signed_distance * normal.
-  bool belong_together(const AnyVector& a, const AnyVector& b) const { return (b - a - *r.signed_distance * *r.normal).norm() <= 10 * c.answer_tolerance(); }
+  bool belong_together(const AnyVector& a, const AnyVector& b) const { return (b - a - *r.signed_distance * *r.normal).norm() <= 10 * c.answer_tolerance() + rounding(); }
+  /// What points of the world have lost far from its origin.
+  double rounding() const { return c.digits() * std::max(r.witness_a ? r.witness_a->norm() : 0, r.witness_b ? r.witness_b->norm() : 0); }
 
   void witnesses() const {
     const Scene& scene = c.recording.scene.scene;
-    const double slack = 10 * limit;
+    const double slack = 10 * limit + rounding();
     const double out_a = r.witness_a ? outside(scene, 0, *r.witness_a) : 0, out_b = r.witness_b ? outside(scene, 1, *r.witness_b) : 0;
     if (out_a > slack || out_b > slack) {
       const bool a = out_a > slack, swapped = r.witness_a && r.witness_b && outside(scene, 0, *r.witness_b) <= slack && outside(scene, 1, *r.witness_a) <= slack && (!measured() || belong_together(*r.witness_b, *r.witness_a));
       c.find("wrong-witness", std::string("witness_") + (a ? "a " : "b ") + text_of(a ? *r.witness_a : *r.witness_b) + " lies " + text_of(a ? out_a : out_b) + " outside its body. " +
-                                   (portal ? "The origin does not project into MPR's last portal: its depth bounds the right one from above, but no points of both bodies lie that far apart along its normal."
+                                   (portal ? "MPR's depth is more than the right one: a way out all the same, but no points of both bodies lie that far apart along its normal."
                                    : swapped ? "Each lies on the other body: they are swapped."
                                            : "The usual cause is weights that belong to other vertices, or to the wrong face."));
       return;
@@ -149,7 +151,8 @@ struct Judge {
     if (!r.contacts) return;
     const Scene& scene = c.recording.scene.scene;
     const double slack = 1e-4 * c.size + 10 * limit;  // the face that is clipped lies across the normal to 4e-5
-    if (r.contacts->empty() == r.intersecting && std::abs(*right.signed_distance) > limit)
+    const bool none = r.contacts->empty() && c.recording.settings.penetration == Penetration::none && !c.inferred;  // no depth, no contact points
+    if (!none && r.contacts->empty() == r.intersecting && std::abs(*right.signed_distance) > limit)
       c.find("wrong-contact", r.intersecting ? "The bodies overlap, but there is no contact point." : "The bodies are apart, but there are contact points.");
     for (std::size_t i = 0; i < r.contacts->size(); ++i) {
       const ContactPoint& p = (*r.contacts)[i];
@@ -173,9 +176,10 @@ void check_result(CheckContext& c, double best_plane) {
   const Result& right = c.reference();
   double limit = c.answer_tolerance();
   // What says itself that it is not exact is judged by its own bounds.
-  if (limited && recording.result.lower_bound && recording.result.upper_bound) limit += *recording.result.upper_bound - *recording.result.lower_bound;
+  const bool exact = recording.result.signed_distance && std::abs(*recording.result.signed_distance - *right.signed_distance) <= limit;  // MPR's may be, and then its points are, too
+  if (limited && !(portal && exact) && recording.result.lower_bound && recording.result.upper_bound) limit += *recording.result.upper_bound - *recording.result.lower_bound;
   if (!recording.events.empty()) c.step = recording.events.size() - 1;
-  const Judge judge{c, recording.result, right, limit, portal && !c.inferred, limited};  // a solver may answer a scene of MPR by other means
+  const Judge judge{c, recording.result, right, limit, portal && !exact && !c.inferred, limited};  // a solver may answer a scene of MPR by other means
   judge.answer(best_plane);
   judge.distance();
   judge.bounds();

@@ -179,7 +179,11 @@ bool covers(const ConvexHull& hull, const std::vector<V3>& points, const std::ve
 ConvexHull convex_hull(std::span<const AnyVector> input, int dimension) {
   std::vector<V3> points;
   points.reserve(input.size());
-  for (const AnyVector& p : input) points.push_back(in_space(p));
+  double size = 0;
+  for (const AnyVector& p : input) points.push_back(in_space(p)), size = std::max(size, points.back().cwiseAbs().maxCoeff());
+  // By a power of two, which rounds nothing: areas are squares of lengths, and their squares must not vanish.
+  if (size > 0)
+    for (V3& p : points) p *= std::ldexp(1.0, std::clamp(-std::ilogb(size), -1000, 1000));
   const std::vector<int> used = distinct(points);
   const Spread spread(points, used);
   ConvexHull hull;

@@ -98,6 +98,25 @@ class Solver(unittest.TestCase):
                 with self.subTest(new):
                     self.clean_on_the_gallery(f"/usr/bin/python3 {path}")
 
+    def test_what_a_search_begins_with_is_its_own_affair(self):
+        """Supports along all axes are tried, and the nearest one is the start."""
+        first = "    simplex = [support([1.0] + [0.0] * (dimension - 1))]\n"
+        tried = "    tried = [support([sign * float(i == k) for i in range(dimension)]) for k in range(dimension) for sign in (1, -1)]\n    simplex = [min(tried, key=lambda x: dot(x.w, x.w))]\n"
+        self.assertIn(first, SOURCE)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "tries.py")
+            path.write_text(SOURCE.replace(first, tried, 1))
+            self.clean_on_the_gallery(f"/usr/bin/python3 {path}", stride=2)
+
+    def test_a_depth_left_out_is_told_by_its_normal(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "silent.py")
+            said = "    print(json.dumps(message), flush=True)"
+            self.assertIn(said, SOURCE)
+            path.write_text(SOURCE.replace(said, '    message.pop("signed_distance", None)\n    print(json.dumps(message), flush=True)', 1))
+            for scene in ("spheres-deep", "spheres-concentric", "box-box-deep"):
+                self.assertEqual([f["code"] for f in self.run_kit(scene, f"/usr/bin/python3 {path}")], [], scene)
+
     def test_muratoris_form_is_clean_on_the_gallery(self):
         self.clean_on_the_gallery(f"/usr/bin/python3 {ROOT / 'tests/muratori_solver.py'}", space_only=True)
 

@@ -14,11 +14,22 @@ Colour verdict_colour(int verdict, const Palette& p) {
   return verdict < 8 ? rgb(colours[static_cast<std::size_t>(verdict)]) : p.field;
 }
 
+Colour text_on(int verdict) { return rgb(verdict >= 1 && verdict <= 4 ? 0x141414 : 0xffffff); }
+
+/// The verdict's mark and the size of the error; in a narrow cell smaller.
+void cell_text(const Theme& theme, const MeasuredCell& cell, ImVec2 low, ImVec2 high) {
+  const std::string number = cell.verdict >= 7 || cell.worst_error == 0 ? "" : formatted(cell.worst_error, "%.0e"), text = atlas_verdict_marks[static_cast<std::size_t>(cell.verdict)] + number;
+  const float room = high.x - low.x - theme.px(2), width = small_width(theme, text), size = theme.small->FontSize * std::clamp(room / std::max(width, 1.f), 0.7f, 1.f);
+  const float drawn = width * size / theme.small->FontSize;
+  if (drawn > room + theme.px(2)) return;
+  ImGui::GetWindowDrawList()->AddText(theme.small, size, {(low.x + high.x - drawn) / 2, (low.y + high.y - size) / 2}, packed(text_on(cell.verdict)), text.c_str());
+}
+
 void tell_cell(App& app, const MeasuredAtlas& atlas, const MeasuredAtlas::Family& family, std::size_t m) {
   const MeasuredCell& cell = family.cells[m];
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(app.theme.px(460));
-  ImGui::Text("%s, %s: %s", family.name.c_str(), atlas.methods[m].c_str(), atlas_verdicts[static_cast<std::size_t>(cell.verdict)]);
+  ImGui::Text("%s, %s: %s (%s)", family.name.c_str(), atlas.methods[m].c_str(), atlas_verdicts[static_cast<std::size_t>(cell.verdict)], atlas_verdict_meanings[static_cast<std::size_t>(cell.verdict)]);
   if (cell.verdict != 8) ImGui::TextColored(vec(app.theme.palette.text_soft), "worst error %.2g at %g", cell.worst_error, cell.parameter);
   ImGui::TextUnformatted(cell.why.empty() ? family.what.c_str() : cell.why.c_str());
   if (cell.scene) ImGui::TextColored(vec(app.theme.palette.text_faint), "click: the simplest scene that fails so");
@@ -39,10 +50,14 @@ void atlas_area(App& app, ImVec2 at, ImVec2 size) {
   ImVec2 pen = at;
   for (int v = 0; v < static_cast<int>(atlas_verdicts.size()); ++v) {
     const std::string name = atlas_verdicts[static_cast<std::size_t>(v)];
-    const float width = small_width(theme, name) + theme.px(34);
+    const float width = small_width(theme, name) + theme.px(38);
     if (pen.x + width > at.x + size.x) pen = {at.x, pen.y + theme.px(20)};
-    list->AddRectFilled({pen.x, pen.y + theme.px(3)}, {pen.x + theme.px(14), pen.y + theme.px(15)}, packed(verdict_colour(v, p)), theme.px(3));
-    small_text(theme, {pen.x + theme.px(19), pen.y + theme.px(2)}, p.text_soft, name);
+    const ImVec2 low{pen.x, pen.y + theme.px(1)}, high{pen.x + theme.px(18), pen.y + theme.px(17)};
+    list->AddRectFilled(low, high, packed(verdict_colour(v, p)), theme.px(3));
+    const std::string mark = atlas_verdict_marks[static_cast<std::size_t>(v)];
+    small_text(theme, {(low.x + high.x - small_width(theme, mark)) / 2, pen.y + theme.px(1)}, text_on(v), mark);
+    small_text(theme, {pen.x + theme.px(23), pen.y + theme.px(2)}, p.text_soft, name);
+    if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(low, {pen.x + width - theme.px(10), high.y})) ImGui::SetTooltip("%s", atlas_verdict_meanings[static_cast<std::size_t>(v)]);
     pen.x += width;
   }
   const std::size_t rows = atlas.methods.size(), columns = atlas.families.size();
@@ -65,9 +80,7 @@ void atlas_area(App& app, ImVec2 at, ImVec2 size) {
       const MeasuredCell& cell = atlas.families[f].cells[m];
       const ImVec2 low{at.x + label + width * static_cast<float>(f), y}, high{low.x + width - gap, y + height - gap};
       list->AddRectFilled(low, high, packed(verdict_colour(cell.verdict, p)), theme.px(3));
-      const std::string text = cell.verdict == 7 ? "\xC3\x97" : cell.verdict == 8 || cell.worst_error == 0 ? "" : formatted(cell.worst_error, "%.0e");
-      const bool dark_text = cell.verdict >= 1 && cell.verdict <= 4;
-      if (small_width(theme, text) + theme.px(4) < width) small_text(theme, {(low.x + high.x - small_width(theme, text)) / 2, (low.y + high.y) / 2 - theme.px(7)}, rgb(dark_text ? 0x141414 : 0xffffff), text);
+      cell_text(theme, cell, low, high);
       if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(low, high)) {
         pointed = &atlas.families[f], pointed_method = m;
         list->AddRect(low, high, packed(p.text), theme.px(3), 0, theme.px(2));
@@ -115,7 +128,7 @@ void lab_panel(App& app, const Area& area) {
     }
     ImGui::Dummy({0, theme.px(2)});
     wrapped(chart ? told_of(app.chart_view)
-                  : "The worst verdict of every family of hard pairs, a row a method. Point at a family for what it is, at a cell for the reason.",
+                  : "The worst verdict of every family of hard pairs, a row a method, with the largest error as a share of the size (none: 0). Point at a family for what it is, at a verdict for what it means, at a cell for the reason.",
             theme.palette.text_faint);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const ImVec2 size{ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x, area.y + area.height - at.y - theme.px(14)};

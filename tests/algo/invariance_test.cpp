@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "algo/epa.h"
+#include "recordings/check.h"
 #include "recordings/gallery.h"
 #include "recordings/json_writing.h"
 #include "recordings/recording.h"
@@ -209,6 +210,22 @@ struct Exacting {
     return p;
   }
 };
+
+/// Centres so near to each other that the square of the way between them vanishes: it has a direction all the same, and every step holds.
+TEST(Invariance, CentresNextToEachOther) {
+  for (const char* shapes : {R"({"type": "ellipsoid", "radii": [1, 1.5, 2]}|{"type": "ellipsoid", "radii": [0.5, 1, 1.5]})", R"({"type": "box", "half_extents": [1, 2, 3]}|{"type": "sphere", "radius": 0.5})",
+                             R"({"type": "cone", "radius": 1, "half_height": 1}|{"type": "cylinder", "radius": 0.5, "half_height": 1})"})
+    for (const char* height : {"1e-170", "-1e-200", "5e-324", "1e-155"})
+      for (const char* method : {"gjk", "gjk-boolean", "gjk-accelerated", "mpr"}) {
+        const std::string pair = shapes, bar = "|";
+        const std::string query = std::string(method) == "gjk-boolean" ? "intersect" : "penetration";
+        const Recording recording = record(parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": ")" + query + R"(", "method": {"name": ")" + method + R"("}, "bodies": [{"shape": )" + pair.substr(0, pair.find(bar)) +
+                                                           R"(, "pose": {"position": [0, )" + height + R"(, 0]}}, {"shape": )" + pair.substr(pair.find(bar) + 1) + "}]}", {}));
+        EXPECT_TRUE(recording.result.intersecting);
+        const auto findings = check(recording);
+        EXPECT_TRUE(findings.empty()) << pair << " " << height << " " << method << ": " << findings[0].message;
+      }
+}
 
 TEST(Trace, EpaStallsWherePrecisionEnds) {
   RandomScenes random(7);

@@ -4,7 +4,6 @@
 // GJKDBG_PAIRS sets how many polytope pairs (20000 unless set; the sanitizer run takes fewer).
 #include <gtest/gtest.h>
 
-
 #include "algo/contact.h"
 #include "algo/minkowski_difference.h"
 #include "algo/solve.h"

@@ -72,5 +72,47 @@ TEST(CheckResult, EpaDoesNotEndWithoutAPolytope) {
   EXPECT_EQ(findings[0].code, "incomplete-trace");
 }
 
+/// No depth was measured, so there is none to be told, and no points.
+TEST(CheckResult, ContactsWithoutADepthAreNone) {
+  SceneFile scene = read_scene(read_gallery(GJKDBG_GALLERY).file("box-box-deep"));
+  scene.scene.query = Query::contact;
+  scene.method.penetration = Penetration::none;
+  for (const MethodName name : {MethodName::gjk, MethodName::mpr, MethodName::sat}) {
+    change_name(scene.method, name);
+    const Recording recording = record(scene);
+    EXPECT_TRUE(recording.result.intersecting);
+    EXPECT_TRUE(check(recording).empty()) << check(recording)[0].message;
+  }
+}
+
+/// The last phase's, and such as its numbers allow.
+TEST(CheckResult, StatusesAreThoseOfTheSteps) {
+  const auto edited = [](const char* name, MethodName method, auto change) {
+    SceneFile scene = read_scene(read_gallery(GJKDBG_GALLERY).file(name));
+    if (!scene.scene.motion) change_name(scene.method, method);
+    Recording recording = record(scene);
+    EXPECT_TRUE(check(recording).empty()) << name;
+    change(recording);
+    const std::vector<Finding> findings = check(recording);
+    return findings.empty() ? "" : findings[0].code;
+  };
+  EXPECT_EQ(edited("obb-shallow", MethodName::gjk, [](Recording& r) { r.result.status = "enclosed"; }), "inconsistent");
+  EXPECT_EQ(edited("sim-intermediate-axis", MethodName::gjk, [](Recording& r) { r.result.status = "stalled"; }), "inconsistent");
+  const auto end_of_mpr = [](auto change) {
+    return [change](Recording& r) {
+      for (Event& event : r.events)
+        if (auto* end = std::get_if<recorded::MprEnded>(&event)) change(*end);
+    };
+  };
+  EXPECT_EQ(edited("mpr-apart", MethodName::mpr, end_of_mpr([](recorded::MprEnded& e) { e.status = MprStatus::converged; })), "inconsistent");
+  EXPECT_NE(edited("mpr-flat", MethodName::mpr, end_of_mpr([](recorded::MprEnded& e) { e.normal = AnyVector::Unit(e.normal.size(), 0) * 0.3; })), "");
+  const auto other_distance = [](Recording& r) {
+    for (Event& event : r.events)
+      if (auto* end = std::get_if<recorded::SatEnded>(&event)) end->distance *= 2;
+  };
+  EXPECT_NE(edited("obb-shallow", MethodName::sat, other_distance), "");
+  EXPECT_NE(edited("sat-2d-apart", MethodName::sat, other_distance), "");
+}
+
 }  // namespace
 }  // namespace gjkdbg

@@ -184,6 +184,24 @@ TEST(Support, ADiscWithoutThicknessInFloat) {
   }
 }
 
+/// Of the smallest lengths, too, whose areas' squares are no numbers.
+TEST(Hull, IsTheSameAtEveryScale) {
+  RandomScenes random(17);
+  for (int k = 0; k < 50; ++k) {
+    std::vector<AnyVector> points;
+    for (int i = 0; i < 12; ++i) points.push_back(any(V3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1) * (k % 5 == 0 ? 1e-9 : 1))));
+    const ConvexHull hull = convex_hull(points, 3);
+    for (const int power : {-900, -540, -270, 300, 900}) {
+      std::vector<AnyVector> scaled = points;
+      for (AnyVector& p : scaled) p *= std::ldexp(1.0, power);
+      const ConvexHull same = convex_hull(scaled, 3);
+      EXPECT_EQ(same.vertices, hull.vertices) << power;
+      EXPECT_EQ(same.faces, hull.faces) << power;
+      EXPECT_EQ(same.rank, hull.rank) << power;
+    }
+  }
+}
+
 TEST(Hull, KeepsExtremeVerticesOnly) {
   std::vector<AnyVector> points;
   for (int i = 0; i < 8; ++i) points.push_back(any(V3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
