@@ -62,9 +62,7 @@ class PairSolver {
     if (settings_.name == MethodName::sat && sat_decides(query)) return;
     if (settings_.name == MethodName::projections && projections_decide(query)) return;
     GjkOptions<D, S> options;
-    options.goal = query == Query::intersect  ? GjkGoal::intersect
-                   : query == Query::distance ? GjkGoal::distance
-                                              : GjkGoal::signed_distance;
+    options.goal = query == Query::intersect ? GjkGoal::intersect : query == Query::distance ? GjkGoal::distance : GjkGoal::signed_distance;
     options.tolerance = tolerance_for(query);
     options.max_iterations = settings_.max_iterations;
     options.direction = first_direction();
@@ -196,8 +194,10 @@ class PairSolver {
     result_->intersecting = found.overlapping();
     if (query == Query::intersect) return true;
     if (!depth) {
-      const V common = on_the_ray(found);
-      return overlapping_at(common, common, 2 * difference_.rounding_floor()), true;
+      const auto [a, b] = on_the_ray(found);
+      if ((a - b).norm() <= 8 * difference_.rounding_floor()) overlapping_at(a, b, 2 * difference_.rounding_floor());
+      else inside_both(2 * difference_.rounding_floor());  // the ray grazes the portal
+      return true;
     }
     if (settings_.penetration == Penetration::epa) return false;  // GJK's simplex is where EPA starts
     if (settings_.penetration == Penetration::none) return overlap_only(0), true;
@@ -206,11 +206,10 @@ class PairSolver {
   }
 
   /// The origin lies between the inner point v0 and where the ray leaves, p: O = v0 + t (p - v0); with the same weights the points of A and of B coincide.
-  V on_the_ray(const MprResult<D, S>& found) const {
-    const V v0 = difference_.center(), whole = found.point_a - found.point_b - v0;
-    const S length = whole.norm();
-    const V center = difference_.a().center();
-    return length > 0 ? V(center + std::min(S(1), v0.norm() / length) * (found.point_a - center)) : center;
+  std::pair<V, V> on_the_ray(const MprResult<D, S>& found) const {
+    const V v0 = difference_.center(), center = difference_.a().center();
+    const S length = (found.point_a - found.point_b - v0).norm(), t = length > 0 ? std::min(S(1), v0.norm() / length) : S(0);
+    return {center + t * (found.point_a - center), center - v0 + t * (found.point_b - center + v0)};
   }
 
   /// The points of the portal nearest to the way out are the witnesses where they are that way apart; where the portal is a part of a larger face, or of another

@@ -23,7 +23,7 @@ enum class Verdict {
 };
 inline constexpr std::array<const char*, 9> verdict_names{"right", "right-within-rounding", "gave-up", "wrong-value", "lied", "wrong-class", "not-finite", "crashed", "not-applicable"};
 /// Beside the colour, in every cell: no verdict is told by colour alone.
-inline constexpr std::array<const char*, 9> verdict_marks{"", "~", "?", "\xE2\x89\xA0", "!", "\xC2\xB1", "\xE2\x88\x9E", "\xC3\x97", ""};
+inline constexpr std::array<const char*, 9> verdict_marks{"", "\xE2\x89\x88", "?", "\xE2\x89\xA0", "!", "\xC2\xB1", "\xE2\x88\x9E", "\xC3\x97", ""};
 inline bool failed(Verdict verdict) { return verdict >= Verdict::gave_up && verdict != Verdict::not_applicable; }
 
 /// What is known of two bodies in motion, for a cast.

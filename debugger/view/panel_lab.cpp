@@ -128,7 +128,7 @@ void lab_panel(App& app, const Area& area) {
     }
     ImGui::Dummy({0, theme.px(2)});
     wrapped(chart ? told_of(app.chart_view)
-                  : "The worst verdict of every family of hard pairs, a row a method, with the largest error as a share of the size (none: 0). Point at a family for what it is, at a verdict for what it means, at a cell for the reason.",
+                  : "The worst verdict of every family of hard pairs, a row a method, with the largest error as a share of the size, where it is not 0. Point at a family for what it is, at a verdict for what it means, at a cell for the reason.",
             theme.palette.text_faint);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const ImVec2 size{ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x, area.y + area.height - at.y - theme.px(14)};

@@ -82,7 +82,7 @@ TEST(Check, EveryMethodsRecordingsAreReadBackAndClean) {
         if (read.settings.name == MethodName::mpr && findings.size() == 1) {
           EXPECT_EQ(findings.front().code, "wrong-witness");
           EXPECT_NE(findings.front().message.find("MPR's depth is more than the right one"), std::string::npos);
-          EXPECT_LE(++missed_portals, 5);
+          EXPECT_LE(++missed_portals, 2);
         } else {
           EXPECT_EQ(text(findings), "");
         }
