@@ -168,6 +168,7 @@ class GjkCheck {
 
  private:
   std::vector<AnyVector> points(const std::vector<int>& numbers);
+  bool goes_on_to_epa() const;
   void check_towards_origin(const AnyVector& direction);
   void check_progress(const recorded::SupportQueried& e);
   void check_region(const recorded::SimplexReduced& e);

@@ -45,6 +45,17 @@ void GjkCheck::operator()(const recorded::GjkBegan& e) {
   if (asks || !c_.inferred) c_.check_direction(e.direction);
 }
 
+/// Whether the solver is done with GJK, and asks for what its polytope lacks: an overlap is claimed before another simplex is reported.
+bool GjkCheck::goes_on_to_epa() const {
+  const auto& events = c_.recording.events;
+  for (std::size_t i = c_.step + 1; i < events.size(); ++i) {
+    if (std::holds_alternative<recorded::SimplexReduced>(events[i])) return false;
+    const auto* end = std::get_if<recorded::GjkEnded>(&events[i]);
+    if (end) return end->status == GjkStatus::enclosed && i + 1 < events.size() && (std::holds_alternative<recorded::PolytopeSeeded>(events[i + 1]) || std::holds_alternative<recorded::FaceChosen>(events[i + 1]));
+  }
+  return false;
+}
+
 /// The next direction must lead from the simplex towards the origin, and across the feature that was kept.
 void GjkCheck::check_towards_origin(const AnyVector& direction) {
   const std::vector<AnyVector> w = points(simplex_);
@@ -58,6 +69,11 @@ void GjkCheck::check_towards_origin(const AnyVector& direction) {
   for (const AnyVector& p : w)
     if (p.dot(d) > nearest_corner.dot(d)) nearest_corner = p;
   const double toward = -d.dot(v) / v.norm();
+  if (toward < -1e-9 && nearest_corner.dot(d) > 0 && goes_on_to_epa()) {
+    c_.find("origin-not-enclosed", "From here on the simplex " + list_of(simplex_) + " is taken to hold the origin: the direction " + text_of(direction) + " leads away from it, as EPA's do, and no simplex follows. But the origin lies " + text_of(v.norm()) +
+                                       " outside, at -v for v = " + text_of(v) + ". The usual cause is a tolerance for touching that is too coarse, or a test against a face whose normal points the wrong way.");
+    return;
+  }
   if (toward < -1e-9 && nearest_corner.dot(d) > 0) {
     c_.find("direction-away-from-origin", "The direction " + text_of(direction) + " leads away from the origin: the simplex's nearest point is v = " + text_of(v) + " and d . (-v) is negative (cosine " + text_of(toward) +
                                               "). Expected is -v or a multiple. The usual cause is a flipped cross product or a missing minus sign.");

@@ -36,6 +36,8 @@ BUGS = [
     ("loops until the limit", "box-box-apart", [(STOP, ""), (GUARD, "")], "any:support-limit"),
     ("stops at the first edge", "box-box-deep", [("        " + SUPPORT, "        " + SUPPORT + "\n        if len(simplex) == 2: return simplex, v, weights")], "any:unjustified-separation"),
     ("stops too early", "box-box-apart", [("tolerance * dot(v, v) or any", "0.5 * dot(v, v) or any")], "stopped-early"),
+    ("touching taken too coarsely", "3d-touch-sphere-face", [("length(v) <= 1e-12 * scale", "length(v) <= 1e-1 * scale")], "origin-not-enclosed"),
+    ("touching taken too coarsely, 2D", "2d-dyn4j", [("length(v) <= 1e-12 * scale", "length(v) <= 1e-1 * scale")], "origin-not-enclosed"),
     ("overlap claimed of a triangle", "box-box-apart", [("or len(simplex) == dimension + 1", "or len(simplex) == dimension")], "origin-not-enclosed"),
     ("overlap claimed of an edge, 2D", "2d-corner-to-edge", [("or len(simplex) == dimension + 1", "or len(simplex) == dimension")], "origin-not-enclosed"),
     ("a face forgotten", "box-box-deep", [("faces = [f for f in faces if f not in seen] +", "faces = [f for f in faces if f not in seen][1:] +")], "open-polytope"),

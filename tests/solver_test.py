@@ -108,6 +108,21 @@ class Solver(unittest.TestCase):
             path.write_text(SOURCE.replace(first, tried, 1))
             self.clean_on_the_gallery(f"/usr/bin/python3 {path}", stride=2)
 
+    def test_momentum_is_what_it_is_said_to_be(self):
+        """Directions off -v cost steps, of which a plain GJK is warned; not one that says it leads them. A scene's own method says nothing of the program."""
+        led = "w = support([-x - (0.1 * y if len(simplex) < 3 and k % 2 == 0 else 0) for k, (x, y) in enumerate(zip(v, reversed(v)))])"
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "led.py")
+            path.write_text(SOURCE.replace(SUPPORT, led, 1))
+            scene = pathlib.Path(folder, "accelerated.scene.json")
+            file = json.loads((ROOT / "recordings/gallery/box-box-deep.scene.json").read_text())
+            file["method"] = {"name": "gjk-accelerated"}
+            scene.write_text(json.dumps(file))
+            command = f"/usr/bin/python3 {path}"
+            for arguments, found in ((["run", scene], True), (["run", scene, "--method", "gjk-accelerated"], False), (["sweep", scene], True), (["sweep", scene, "--method", "gjk-accelerated"], False)):
+                result = subprocess.run([PROGRAM, *map(str, arguments), "--exec", command], capture_output=True, text=True)
+                self.assertEqual((result.returncode, "direction-not-perpendicular" in result.stdout), (1 if found else 0, found), (arguments, result.stdout, result.stderr))
+
     def test_a_depth_left_out_is_told_by_its_normal(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "silent.py")

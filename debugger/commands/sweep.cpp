@@ -109,6 +109,7 @@ struct Sweep {
   std::vector<std::string> scenes;  ///< files or gallery names; none: all of the gallery
   std::optional<int> random;
   int dimension = 0;
+  std::string by;      ///< how the program comes to its directions
   std::string scalar;  ///< what the program counts in, where it is not the scene's
   unsigned seed = 1;
   SolverLimits limits;
@@ -171,6 +172,7 @@ struct Sweep {
 
   Settings settings_of(const SceneFile& scene) const {
     Method method = method_for_solver(scene.method);
+    if (by == method_names[static_cast<std::size_t>(MethodName::gjk_accelerated)]) method.name = MethodName::gjk_accelerated;
     if (!scalar.empty()) method.scalar = scalar == scalar_names[1] ? Scalar::float_precision : Scalar::double_precision;
     return resolve_settings(method, scene.scene);
   }
@@ -247,6 +249,7 @@ void add_sweep(CLI::App& app, Status& status) {
   command->add_option("--dimension", options->dimension, "only scenes of this dimension")->check(between(1, 3));
   command->add_option("--seed", options->seed, "of the random scenes (1)")->check(between(0, 4294967295.0));
   command->add_option("-o,--output", options->output, "folder for the scenes that fail, shrunk")->check(named());
+  command->add_option("--method", options->by, "gjk-accelerated: the program leads its directions by momentum (gjk)")->check(CLI::IsMember({"gjk", "gjk-accelerated"}));
   command->add_option("--scalar", options->scalar, "float: the program counts in single precision (as the scene says)")->check(CLI::IsMember({"double", "float"}));
   command->add_option("--max-supports,--max_supports", options->limits.max_supports, "support queries a scene (1000)")->check(between(1, 10000000));
   command->add_option("--timeout", options->limits.timeout, "seconds a scene (10)")->check(between(0.01, 86400.0));
