@@ -72,13 +72,14 @@ class SinkTaking<Self, Base, EventList<Event, Rest...>> : public SinkTaking<Self
 };
 
 /// Fills in the defaults for a scene. Throws Error (place: pointer relative to the method, "/name", …) for values out of
-/// range and for combinations that do not exist, among them what a later version will bring: the queries cast and simulate.
+/// range and for combinations that do not exist.
 Settings resolve_settings(const Method& method, const Scene& scene);
 
 /// How far a computed support plane of the scene may be off, in the settings' precision (algo/minkowski_difference.h). Of a mesh: its first triangle's.
 double rounding_floor(const Scene& scene, const Settings& settings);
 
-/// Solves the scene's query for its two bodies. The scene must be valid (`shapes/scene_check.h` or the reader of recordings/).
+/// Solves the scene's query: of two bodies, of two or more for a cast, of one or more for a simulation. Their shapes must pass `validate` (shapes/shape.h), or come
+/// from the reader of recordings/.
 /// Deterministic; with and without a sink the result is the same bit for bit.
 Result solve(const Scene& scene, const Settings& settings);
 Result solve(const Scene& scene, const Settings& settings, TraceSink& trace);

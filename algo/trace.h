@@ -48,7 +48,7 @@ struct GjkBegan {
 };
 
 /// Vertex `vertex` of the difference: w = a - b is its farthest point along `direction`. The points are those of
-/// the cores: a sphere answers with its centre, a margin is left out.
+/// the cores: a sphere answers with its centre, a margin is left out; of boolean GJK, MPR and a ray cast those of the bodies.
 template <class V, class Store>
 struct SupportQueried {
   static constexpr std::string_view kind = "support_queried";

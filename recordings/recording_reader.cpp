@@ -22,8 +22,8 @@ struct FieldReader {
   void read(const Json& json, const Place& place, std::string_view name, AnyVector& v) const {
     if (name == "closest" && json.is_null()) {
       v = AnyVector();
-    } else if (name == "direction") {
-      v = direction(json, place);
+    } else if (name == "direction" || name == "closest") {
+      v = with_nulls(json, place);
     } else {
       v = read_vector(json, place, dimension);
     }
@@ -95,7 +95,8 @@ struct FieldReader {
     return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : read_number(json, place);
   }
 
-  AnyVector direction(const Json& json, const Place& place) const {
+  /// What a solver computed may be no number.
+  AnyVector with_nulls(const Json& json, const Place& place) const {
     if (!json.is_array() || json.size() != static_cast<std::size_t>(dimension)) return read_vector(json, place, dimension);
     AnyVector v(dimension);
     for (std::size_t i = 0; i < json.size(); ++i) v[static_cast<Eigen::Index>(i)] = number_or_null(json[i], Place(place, i));

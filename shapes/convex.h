@@ -97,7 +97,7 @@ void SumCore<D, S>::add_derivative(const Matrix<D, S>& axes, const Vector<D, S>&
 /// take 0.6 (apart) to 1.0 (deep) of the scan's time with the table where 200 pairs are met in turn, and 0.9 to 1.2 where 1,000 are; of 32, 1.0 to 1.5.
 inline constexpr int table_from = 100;
 
-/// Largest power of two not above 1 / (the shape's size): brings any scene to lengths near 1.
+/// The shape's size: its largest coordinate, radius, half height or margin, in its own frame; of a sum the larger of both.
 double size_of(const Shape& shape);
 
 extern template class Convex<1, double>;

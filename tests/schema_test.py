@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Every shipped scene and recording, and what the program writes today, validates against its schema; damaged ones do not."""
+import collections
 import copy
 import json
 import os
@@ -58,15 +59,25 @@ class Schemas(unittest.TestCase):
             self.check("recording", thinned(json.loads(run.stdout)), path.name)
 
     def test_what_every_method_writes(self):
-        for scene in ("box-box-deep", "spheres-deep", "2d-deep", "pair-cylinder-cone", "cylinder-box-deep"):
-            for method in ("gjk", "gjk-boolean", "gjk-accelerated", "mpr", "sat", "closed-form", "projections", "fastest"):
-                query = "intersect" if method == "gjk-boolean" else "penetration"
-                run = subprocess.run([PROGRAM, "dump", scene, "--method", method, "--query", query], capture_output=True, text=True)
-                if run.returncode == 2:
-                    continue  # no method for these bodies
-                recording = json.loads(run.stdout)
-                self.check("recording", recording, f"{scene} by {method}")
-                self.check("scene", recording["scene"], f"{scene} by {method}")
+        written = collections.Counter()
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "asked.scene.json")
+            for scene in ("box-box-deep", "spheres-deep", "2d-deep", "pair-cylinder-cone", "cylinder-box-deep"):
+                for method in ("gjk", "gjk-boolean", "gjk-accelerated", "mpr", "sat", "closed-form", "projections", "fastest"):
+                    for query in ("intersect",) if method == "gjk-boolean" else ("distance", "penetration", "contact"):
+                        asked = load(ROOT / f"recordings/gallery/{scene}.scene.json")
+                        asked["query"] = query
+                        asked.pop("method", None), asked.pop("expect", None)
+                        path.write_text(json.dumps(asked))
+                        run = subprocess.run([PROGRAM, "dump", str(path), "--method", method], capture_output=True, text=True)
+                        if run.returncode == 2:
+                            self.assertIn("--method", run.stderr)
+                            continue  # no method for these bodies
+                        recording = json.loads(run.stdout)
+                        self.check("recording", recording, f"{scene} by {method}")
+                        self.check("scene", recording["scene"], f"{scene} by {method}")
+                        written[method] += 1
+        self.assertTrue(all(written[m] >= 3 for m in ("gjk", "gjk-boolean", "gjk-accelerated", "mpr", "sat", "closed-form", "projections", "fastest")), written)
 
     def test_findings_and_solver_messages(self):
         for scene in ("box-box-deep", "box-box-apart"):
@@ -82,6 +93,23 @@ class Schemas(unittest.TestCase):
                 self.assertEqual(bool(findings["findings"]), scene == "box-box-apart")
                 for line in pathlib.Path(folder, "said").read_text().splitlines():
                     self.check("solver-message", json.loads(line), line)
+
+    def test_what_is_no_number_is_written_and_read_back(self):
+        """A solver's nearest point of which a part is NaN, and a field that is not known."""
+        script = "read l; echo '{\"type\":\"support\",\"direction\":[1,0]}'; read l; echo '{\"type\":\"simplex\",\"vertices\":[0],\"closest\":[NaN,0],\"speed\":1}'; echo '{\"type\":\"result\",\"intersecting\":true}'"
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "nan.recording.json")
+            run = subprocess.run([PROGRAM, "run", "2d-deep", "--exec", script, "--json", "-o", str(path)], capture_output=True, text=True)
+            findings = json.loads(run.stdout)
+            self.check("findings", findings, "nan")
+            self.assertLessEqual({"wrong-closest", "unknown-field"}, {f["code"] for f in findings["findings"]})
+            self.check("recording", load(path), "nan")
+            self.assertEqual(json.loads(subprocess.run([PROGRAM, "check", str(path), "--json"], capture_output=True, text=True).stdout), findings)
+
+    def test_the_example_of_another_engine(self):
+        text = (ROOT / "recordings/README.md").read_text()
+        example = json.loads(text[text.index('{"format": "gjk-recording"'):].split("```")[0])
+        self.check("recording", example, "my engine")
 
     def test_wrong_files_do_not_validate(self):
         good = load(ROOT / "recordings/golden/2d-deep.recording.json")
