@@ -102,6 +102,7 @@ class DifferencePainter : public Painter {
       if (p && q && !flat()) picture_.lines.push_back({to_view(p->w), to_view(q->w), palette_.frontier, 3.2, Stroke::solid, true, true});
     }
     if (const auto chosen = frame_.chosen ? frame_.faces.find(*frame_.chosen) : frame_.faces.end(); chosen != frame_.faces.end()) name_face(chosen->second);
+    right_face();
     if (!frame_.normal || !frame_.depth || frame_.epa_status == EpaStatus::aborted) return;
     const ViewPoint tip = to_view(*frame_.normal) * std::max(0.0, *frame_.depth - meshes_.radius);
     if (!(tip.norm() > 1e-6 * unit())) return;
@@ -109,16 +110,34 @@ class DifferencePainter : public Painter {
     label(tip / 2, meshes_.radius > 0 ? "depth of the cores" : "depth", palette_.text);
   }
 
-  /// "face 3", as the step's sentence calls it, in the face's middle.
-  void name_face(const FrameFace& f) {
+  /// Beside another program's choice the face that is the nearest, in the colour in which the panel tells what is right.
+  void right_face() {
+    if (!foreign(recording_) || !std::holds_alternative<recorded::FaceChosen>(recording_.events[frame_.step])) return;
+    const FrameFace* nearest = nullptr;
+    for (const auto& [number, f] : frame_.faces)
+      if (!nearest || f.distance < nearest->distance) nearest = &f;
+    const auto chosen = frame_.chosen ? frame_.faces.find(*frame_.chosen) : frame_.faces.end();
+    if (!nearest || (chosen != frame_.faces.end() && chosen->second.distance <= nearest->distance + 1e-7 * unit())) return;
+    face(*nearest, palette_.support, 0.12, 3, Stroke::dashed);
+    if (const auto at = middle_of(*nearest)) label(*at, "nearest: " + name_of(*nearest), palette_.support.mixed(palette_.text), 8, 30);
+  }
+
+  /// As the step's sentence calls it.
+  std::string name_of(const FrameFace& f) const { return (meshes_.dimension == 2 ? "edge " : "face ") + std::to_string(f.face); }
+
+  std::optional<ViewPoint> middle_of(const FrameFace& f) const {
     ViewPoint middle = ViewPoint::Zero();
     for (const int v : f.vertices) {
       const FrameVertex* p = vertex(v);
-      if (!p) return;
+      if (!p) return std::nullopt;
       middle += to_view(p->w) / static_cast<double>(f.vertices.size());
     }
-    const std::string name = (meshes_.dimension == 2 ? "edge " : "face ") + std::to_string(f.face);
-    label(middle, name, palette_.chosen.mixed(palette_.text), -4.2 * static_cast<double>(name.size()), -12);  // lighter than the face, on which it stands if it can
+    return middle;
+  }
+
+  void name_face(const FrameFace& f) {
+    const std::string name = name_of(f);
+    if (const auto at = middle_of(f)) label(*at, name, palette_.chosen.mixed(palette_.text), -4.2 * static_cast<double>(name.size()), -12);  // lighter than the face, on which it stands if it can
   }
 
   /// MPR: the rays from the inner point to the portal's corners, and the one through the origin.

@@ -90,6 +90,9 @@ struct Explain : ExplainMotion {
     const std::string face = facet();
     switch (e.status) {
       case EpaStatus::converged:
+        if (ends_at_an_earlier_face(e))
+          return "Along the normal of " + face + " " + std::to_string(e.face) + ", which was asked along before, " + difference() + " reaches no farther than the polytope's nearest " + face + " is now: the bounds have met, and that" + with_the_radii(e) +
+                 " is the depth. Moving " + b() + " by " + short_number(e.depth) + " along " + short_vector(e.normal) + " just separates the bodies.";
         return "No vertex lies beyond the chosen " + face + ": it is part of the boundary of " + difference() + ", and its distance" + with_the_radii(e) + " is the depth. Moving " + b() + " by " + short_number(e.depth) + " along " +
                short_vector(e.normal) + " just separates the bodies.";
       case EpaStatus::flat:
@@ -101,6 +104,13 @@ struct Explain : ExplainMotion {
       case EpaStatus::aborted: return "The solver ended without an answer.";
     }
     return {};
+  }
+
+  /// Several ways out are as short, and the first one met is the answer.
+  bool ends_at_an_earlier_face(const recorded::EpaEnded& e) const {
+    for (std::size_t i = frame.step; i-- > 0;)
+      if (const auto* chosen = std::get_if<recorded::FaceChosen>(&recording.events[i])) return e.face >= 0 && chosen->face != e.face;
+    return false;
   }
 
   /// Where GJK begins when it is not told.

@@ -152,7 +152,7 @@ void faces(App& app) {
   if (frame.chosen && frame.faces.contains(*frame.chosen)) {
     const FrameFace& f = frame.faces.at(*frame.chosen);
     number_row(app, (foreign(app.session.recording()) ? facet + " chosen" : "nearest " + facet).c_str(), std::to_string(f.face), theme.palette.chosen, f.event);
-    number_row(app, "its distance", f.distance, theme.palette.chosen, f.event);
+    number_row(app, "its distance", at_the_point(f.distance), theme.palette.chosen, f.event, all_digits(f.distance));
     number_row(app, "its normal", f.normal, theme.palette.chosen, f.event);
   }
 }
@@ -249,7 +249,7 @@ void answer(App& app) {
   }
   number_row(theme, "intersecting", r.intersecting ? "yes" : "no", foreign(app.session.recording()) ? theme.palette.text : r.intersecting ? theme.palette.chosen : theme.palette.support);
   const char* label = !r.signed_distance || !unproven(r) ? "signed distance" : *r.signed_distance < 0 ? "signed distance, at least" : "signed distance, at most";
-  if (r.signed_distance) number_row(app, label, *r.signed_distance, theme.palette.text, last_of<recorded::GjkEnded, recorded::EpaEnded, recorded::MprEnded, recorded::SatEnded, recorded::ClosedFormEnded, recorded::ProjectionsEnded>(app.session));
+  if (r.signed_distance) number_row(app, label, at_the_point(*r.signed_distance), theme.palette.text, last_of<recorded::GjkEnded, recorded::EpaEnded, recorded::MprEnded, recorded::SatEnded, recorded::ClosedFormEnded, recorded::ProjectionsEnded>(app.session), all_digits(*r.signed_distance));
   if (r.normal) number_row(app, "normal", *r.normal, theme.palette.text);
   const int digits = r.witness_a && r.witness_b ? digits_that_tell(*r.witness_a, *r.witness_b) : 4;
   if (r.witness_a) number_row(app, "witness a", *r.witness_a, theme.palette.body_a, {}, digits);
