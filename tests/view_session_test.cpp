@@ -61,6 +61,18 @@ TEST_F(OpenRun, GivesWhatIsNotProvenAsTheMostItCanBe) {
   EXPECT_TRUE(result_text(session.recording()).starts_with("overlapping, depth 0.39")) << result_text(session.recording());
 }
 
+TEST_F(OpenRun, IsFoundInTheGalleryByWords) {
+  app.left_tab = App::LeftTab::gallery;
+  host.frame();
+  host.click(130, 117);
+  host.type("RIM OF A CONE");  // of its description, in either case
+  host.frame();
+  host.press(Key::enter);
+  host.frame();
+  EXPECT_EQ(session.title(), "cone-rim-on-box");
+  EXPECT_EQ(session.step(), 0u) << "what is typed is no key";
+}
+
 TEST(Numbers, HaveTheirPointsInOneColumn) {
   for (const double x : {0.0, 1.0, -2.5, 0.0652777, 3.09327, 1.54e-14, -1e300, 123456.0, 0.1234567, 7e-5}) {
     const std::string text = at_the_point(x);

@@ -41,6 +41,7 @@ class App {
   std::string save_requested; ///< a file name the person gave; the host writes it and clears this
   std::string stop_when_text; ///< the condition as typed
   std::string stop_when_error;
+  char gallery_search[64] = {};  ///< what is looked for in the gallery
 
   /// Opens a file or a gallery scene; what is wrong is shown in the window.
   void open(const std::filesystem::path& file);

@@ -1,5 +1,6 @@
 // The left panel: the gallery in lessons, each scene with a picture of itself.
 #include <algorithm>
+#include <cctype>
 
 #include "debugger/view/app.h"
 
@@ -15,7 +16,7 @@ void description_tooltip(const Theme& theme, const std::string& description) {
   ImGui::EndTooltip();
 }
 
-/// One scene: its picture, its name. True when clicked.
+/// One scene: its picture, its name, the beginning of what it says of itself. True when clicked.
 bool scene_row(App& app, const std::string& name, bool current) {
   const Theme& theme = app.theme;
   const float height = theme.px(46);
@@ -24,7 +25,7 @@ bool scene_row(App& app, const std::string& name, bool current) {
   ImGui::PushID(name.c_str());
   const bool clicked = ImGui::Selectable("##scene", current, 0, {width, height});
   ImGui::PopID();
-  if (ImGui::IsItemHovered()) description_tooltip(theme, app.thumbnails().description(name));
+  if (ImGui::IsItemHovered()) description_tooltip(theme, app.thumbnails().description(app.gallery(), name));
   if (!ImGui::IsRectVisible(at, {at.x + width, at.y + height})) return clicked;
   app.thumbnails().draw(app.gallery(), name, theme, {at.x + theme.px(4), at.y + theme.px(3)}, {at.x + theme.px(68), at.y + height - theme.px(3)});
   // A long name takes two lines, cut at a hyphen.
@@ -38,16 +39,49 @@ bool scene_row(App& app, const std::string& name, bool current) {
     while (cut != std::string::npos && cut > 0 && text_width(name.substr(0, cut + 1)) > room) cut = name.rfind('-', cut - 1);
   }
   const bool two = cut != std::string::npos;
-  const float line = theme.small->FontSize + theme.px(1), y = at.y + height / 2 - line * (two ? 1 : 0.5f);
+  const float line = theme.small->FontSize + theme.px(1), y = at.y + height / 2 - line;
   draw->AddText(theme.small, theme.small->FontSize, {left, y}, colour, two ? name.substr(0, cut + 1).c_str() : name.c_str());
+  const ImU32 faint = packed(theme.palette.text_faint);
   if (two) draw->AddText(theme.small, theme.small->FontSize, {left, y + line}, colour, name.substr(cut + 1).c_str());
+  else draw->AddText(theme.small, theme.small->FontSize, {left, y + line}, faint, shortened(theme.small, app.thumbnails().description(app.gallery(), name), room).c_str());
   return clicked;
+}
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// The scenes whose names or descriptions hold the text, in either case.
+std::vector<std::string> matches(App& app, const std::string& text) {
+  std::vector<std::string> found;
+  const std::string wanted = lower_case(text);
+  for (const Lesson& lesson : app.gallery().lessons)
+    for (const std::string& name : lesson.scenes)
+      if (lower_case(name + " " + app.thumbnails().description(app.gallery(), name)).find(wanted) != std::string::npos) found.push_back(name);
+  return found;
+}
+
+void scene_rows(App& app, const std::vector<std::string>& names) {
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, app.theme.px(2)});
+  for (const std::string& name : names)
+    if (scene_row(app, name, app.session.scene().scene.name == name)) app.open_gallery(name);
+  ImGui::PopStyleVar();
 }
 
 }  // namespace
 
 void gallery_panel(App& app) {
   const Theme& theme = app.theme;
+  ImGui::SetNextItemWidth(-1);
+  const bool entered = ImGui::InputTextWithHint("##search", "find a scene", app.gallery_search, sizeof app.gallery_search, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (app.gallery_search[0] != 0) {
+    const std::vector<std::string> found = matches(app, app.gallery_search);
+    const std::string count = found.empty() ? "no scene has it" : std::to_string(found.size()) + (found.size() == 1 ? " scene" : " scenes");
+    ImGui::TextColored(vec(theme.palette.text_faint), "%s", count.c_str());
+    if (entered && !found.empty()) app.open_gallery(found[0]);
+    return scene_rows(app, found);
+  }
   for (const Lesson& lesson : app.gallery().lessons) {
     ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text));
     const bool holds = std::find(lesson.scenes.begin(), lesson.scenes.end(), app.session.scene().scene.name) != lesson.scenes.end();
@@ -63,10 +97,7 @@ void gallery_panel(App& app) {
     ImGui::TextWrapped("%s", lesson.text.c_str());
     ImGui::PopStyleColor();
     ImGui::PopFont();
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, theme.px(2)});
-    for (const std::string& name : lesson.scenes)
-      if (scene_row(app, name, app.session.scene().scene.name == name)) app.open_gallery(name);
-    ImGui::PopStyleVar();
+    scene_rows(app, lesson.scenes);
   }
 }
 

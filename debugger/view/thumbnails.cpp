@@ -37,9 +37,15 @@ void Thumbnails::draw(const Gallery& gallery, const std::string& scene, const Th
   draw->PopClipRect();
 }
 
-std::string Thumbnails::description(const std::string& scene) const {
-  const auto found = made_so_far_.find(scene);
-  return found == made_so_far_.end() ? std::string() : found->second.recording.scene.scene.description;
+const std::string& Thumbnails::description(const Gallery& gallery, const std::string& scene) {
+  const auto [found, is_new] = described_.try_emplace(scene);
+  if (is_new) {
+    try {
+      found->second = read_scene(gallery.file(scene)).scene.description;
+    } catch (const Error&) {  // opening it will say why
+    }
+  }
+  return found->second;
 }
 
 }  // namespace gjkdbg
