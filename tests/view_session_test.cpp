@@ -39,6 +39,16 @@ TEST_F(OpenRun, OfAnotherProgramComesBackWithUndo) {
   EXPECT_EQ(session.scene().scene.bodies[1].pose.position[0], next.scene.bodies[1].pose.position[0]);
 }
 
+TEST_F(OpenRun, IsAtTheStepItWasAtAfterUndo) {
+  session.go_to(15);
+  SceneFile next = session.scene();
+  next.scene.bodies[1].pose.position[0] += 9;  // apart: a short run
+  app.edit(next);
+  EXPECT_LT(session.count(), 15u);
+  session.undo();
+  EXPECT_EQ(session.step(), 15u);
+}
+
 TEST_F(OpenRun, StandsStillBehindAnOpenList) {
   session.go_to(3);
   host.click(178, 516);  // the query's list
@@ -46,8 +56,9 @@ TEST_F(OpenRun, StandsStillBehindAnOpenList) {
   ASSERT_FALSE(ImGui::GetCurrentContext()->OpenPopupStack.empty());
   host.press(Key::end);
   EXPECT_EQ(session.step(), 3u);
-  host.click(640, 400);  // closes it
+  host.press(Key::escape);  // closes it
   host.frame();
+  EXPECT_TRUE(ImGui::GetCurrentContext()->OpenPopupStack.empty());
   host.press(Key::end);
   EXPECT_EQ(session.step() + 1, session.count());
 }

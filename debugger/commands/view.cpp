@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cstdlib>
+#include <fstream>
 #include <memory>
 #include <sstream>
 
@@ -73,14 +74,15 @@ class TemporaryFolder {
   std::string path_ = (std::filesystem::temp_directory_path() / ("gjkdbg-" + std::string(6, 'X'))).string();  ///< as mkdtemp wants it
 };
 
-/// This program with other words, at the same time; 0 when it cannot be started.
-pid_t start_self(std::vector<std::string> words) {
+/// This program with other words, at the same time, what it says of errors into a file where one is named; 0 when it cannot be started.
+pid_t start_self(std::vector<std::string> words, const std::string& errors = {}) {
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t quiet;
   posix_spawn_file_actions_init(&quiet);
   posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  if (!errors.empty()) posix_spawn_file_actions_addopen(&quiet, STDERR_FILENO, errors.c_str(), O_WRONLY | O_CREAT, 0600);
   pid_t child = 0;
   const int failed = posix_spawn(&child, program_path().c_str(), &quiet, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&quiet);
@@ -96,10 +98,15 @@ void render_to(const App& app, const std::string& file) {
   if (file.ends_with(".gif")) words.push_back("--all");
   else words.insert(words.end(), {"--step", std::to_string(app.session.step())});
   if (!app.theme.dark) words.push_back("--light");
-  const pid_t child = start_self(words);
+  const std::string errors = folder.path() + "/errors";
+  const pid_t child = start_self(words, errors);
   int status = -1;
   if (child > 0) waitpid(child, &status, 0);
-  if (child <= 0 || !WIFEXITED(status) || WEXITSTATUS(status) != 0) throw Error("cannot-write", "the picture could not be made", file);
+  if (child > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
+  std::string reason;
+  std::getline(std::ifstream(errors), reason);
+  if (const std::string who = "gjkdbg: " + file + ": "; reason.starts_with(who)) reason = reason.substr(who.size());
+  throw Error("cannot-write", reason.empty() ? "the picture could not be made" : reason, file);
 }
 
 std::string save(const App& app, const std::string& file) {

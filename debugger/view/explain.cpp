@@ -141,6 +141,9 @@ struct Explain : ExplainMotion {
     if (e.phase == Phase::sat) return {"Support along an axis", where + "How far it reaches past the origin is how far the bodies overlap along this axis."};
     if (e.phase == Phase::epa) return {"Support across the chosen " + facet(), where + reach_across(e)};
     const double along = e.direction.stableNormalized().dot(e.w);
+    if (e.phase == Phase::projections)
+      return {"Support across the way between", where + (along < 0 ? "All of " + difference() + " lies " + short_number(-along) + " or more short of the origin along d: the " + bodies() + " are at least that far apart. Where the two points are no farther from each other, they are the nearest."
+                                                                   : "It lies at or past the origin along d, so nothing is proven yet.")};
     if (frame.simplex.size() <= 1) return {"First support", where + "One corner of the difference is a start: the simplex is this point."};
     const auto [title, why] = way(e.direction);
     return {title, why + where + (along < 0 ? "It lies " + short_number(-along) + " short of the origin along d: all of " + difference() + " does, so the " + bodies() + " are at least that far apart."

@@ -7,6 +7,7 @@
 #include <imgui_impl_opengl3.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "debugger/view/hosts.h"
 #include "shapes/error.h"
@@ -51,12 +52,22 @@ float scale_of(GLFWwindow* window, float asked) {
   return std::clamp(x, 1.0f, 4.0f);
 }
 
+/// Keys that went down since the last frame, and perhaps up again, are down for this one.
+void hold_presses([[maybe_unused]] GLFWwindow* window, [[maybe_unused]] bool down) {
+#if IMGUI_VERSION_NUM < 18700
+  for (const int code : noted_presses())
+    if (code >= 0 && code < 512) ImGui::GetIO().KeysDown[code] = down || glfwGetKey(window, code) == GLFW_PRESS;
+#endif
+}
+
 void draw(GLFWwindow* window, App& app) {
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  hold_presses(window, true);
   ImGui::GetIO().DeltaTime = std::clamp(ImGui::GetIO().DeltaTime, 1e-4f, 0.1f);
   ImGui::NewFrame();
   app.frame();
+  hold_presses(window, false);
   forget_presses();
   ImGui::Render();
   int width = 0, height = 0;
@@ -99,12 +110,33 @@ void measure(App& app, const WindowOptions& options) {
   }
 }
 
+int& inputs() {
+  static int count = 0;
+  return count;
+}
+
+/// Before ImGui's own callbacks, which call these.
+void count_inputs(GLFWwindow* window) {
+  glfwSetKeyCallback(window, [](GLFWwindow*, [[maybe_unused]] int key, int, [[maybe_unused]] int action, [[maybe_unused]] int held) {
+    ++inputs();
+#if IMGUI_VERSION_NUM < 18700
+    if (action == GLFW_PRESS) note_press(key, (held & GLFW_MOD_SHIFT) != 0, (held & GLFW_MOD_CONTROL) != 0);
+#endif
+  });
+  glfwSetMouseButtonCallback(window, [](GLFWwindow*, int, int, int) { ++inputs(); });
+  glfwSetCursorPosCallback(window, [](GLFWwindow*, double, double) { ++inputs(); });
+  glfwSetScrollCallback(window, [](GLFWwindow*, double, double) { ++inputs(); });
+  glfwSetCharCallback(window, [](GLFWwindow*, unsigned) { ++inputs(); });
+  glfwSetFramebufferSizeCallback(window, [](GLFWwindow*, int, int) { ++inputs(); });
+}
+
 /// Draws while something changes; otherwise sleeps until there is input. A few frames follow every input, for what takes ImGui
-/// more than one to settle.
+/// more than one to settle: a button that goes down and up at once is pressed in the second.
 void loop(GLFWwindow* window, App& app, const WindowOptions& options) {
-  int frames_left = 3;
+  int frames_left = 3, seen = 0;
   std::string title;
   while (!glfwWindowShouldClose(window) && !app.quit) {
+    if (std::exchange(seen, inputs()) != inputs()) frames_left = 3;
     if (app.moving()) glfwPollEvents();
     else if (frames_left > 0) glfwPollEvents(), --frames_left;
     else if (options.refresh || app.measuring) glfwWaitEventsTimeout(0.33), frames_left = 1;
@@ -134,11 +166,7 @@ void run_window(const WindowOptions& options, Gallery gallery) {
   App app(std::move(gallery), scale_of(window, options.scale));
   glfwSetWindowUserPointer(window, &app);
   glfwSetDropCallback(window, open_dropped);
-#if IMGUI_VERSION_NUM < 18700
-  glfwSetKeyCallback(window, [](GLFWwindow*, int key, int, int action, int held) {
-    if (action == GLFW_PRESS) note_press(key, (held & GLFW_MOD_SHIFT) != 0, (held & GLFW_MOD_CONTROL) != 0);
-  });
-#endif
+  count_inputs(window);
   ImGui_ImplGlfw_InitForOpenGL(window, true);
   ImGui_ImplOpenGL3_Init("#version 330 core");
   app.preferences = options.preferences;

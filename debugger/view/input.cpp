@@ -41,6 +41,7 @@ void note_press(int code, bool shift, bool control) {
   noted().shift |= shift, noted().control |= control;
 }
 void forget_presses() { noted() = {}; }
+const std::vector<int>& noted_presses() { return noted().codes; }
 bool shift_held() { return ImGui::GetIO().KeyShift || noted().shift; }
 bool control_held() { return ImGui::GetIO().KeyCtrl || noted().control; }
 

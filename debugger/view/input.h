@@ -16,6 +16,7 @@ bool key_pressed(Key key);
 /// the same frame. `forget_presses` after every frame.
 void note_press(int code, bool shift, bool control);
 void forget_presses();
+const std::vector<int>& noted_presses();
 /// Held now, or with a press noted since the last frame.
 bool shift_held();
 bool control_held();

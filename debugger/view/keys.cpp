@@ -1,5 +1,8 @@
 // What each key does, and the sheet that says so.
+#include <imgui_internal.h>
+
 #include <numbers>
+#include <string_view>
 #include <utility>
 
 #include "debugger/view/app.h"
@@ -35,11 +38,24 @@ void App::control_keys(bool shift) {
   }
 }
 
+namespace {
+
+/// To choose from; not a dialog, nor what the rail of a narrow window has opened.
+bool list_is_open() {
+  const auto& open = ImGui::GetCurrentContext()->OpenPopupStack;
+  return !open.empty() && open.back().Window && std::string_view(open.back().Window->Name).starts_with("##Combo");
+}
+
+}  // namespace
+
 void App::keys() {
   const ImGuiIO& io = ImGui::GetIO();
   // WantTextInput still holds in the frame after a text field went away with its dialog: keys typed meanwhile are no text.
   if ((io.WantTextInput && ImGui::IsAnyItemActive()) || !session.is_open()) return;
-  if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel) && !rail_open_ && asked_ == Asking::nothing) return;  // a list is open to choose from
+  if (list_is_open()) {
+    if (key_pressed(Key::escape)) ImGui::ClosePopupToLevel(ImGui::GetCurrentContext()->OpenPopupStack.Size - 1, true);
+    return;
+  }
   step_keys(shift_held(), control_held());
   if (control_held()) return control_keys(shift_held());
   if (key_pressed(Key::home)) session.playing = false, session.go_to(0);

@@ -15,26 +15,29 @@ struct Sample {
   std::size_t step;
   double gap;
   int phase;
+  int run = 0;  ///< of a mesh each triangle is one
 };
 
 std::vector<Sample> samples_of(const Recording& recording) {
   std::vector<Sample> samples;
+  int run = 0;
   double deepest = std::numeric_limits<double>::infinity();  // by GJK, which EPA goes on from
   for (std::size_t i = 0; i < recording.events.size(); ++i)
     std::visit(
         [&](const auto& e) {
           using E = std::decay_t<decltype(e)>;
+          if constexpr (std::is_same_v<E, recorded::GjkBegan>) ++run;
           if constexpr (std::is_same_v<E, recorded::GjkEnded>) deepest = -e.lower_bound;
           if constexpr (requires { e.upper_bound; }) {
             const double upper = std::is_same_v<E, recorded::PolytopeGrown> && e.lower_bound <= deepest ? std::min(e.upper_bound, deepest) : e.upper_bound;
-            samples.push_back({i, upper - e.lower_bound, phase_of(recording.events[i])});
+            samples.push_back({i, upper - e.lower_bound, phase_of(recording.events[i]), run});
           }
         },
         recording.events[i]);
   const Result& r = recording.result;
   const Event& last = recording.events.back();
   const bool without_bounds = std::holds_alternative<recorded::EpaEnded>(last) || std::holds_alternative<recorded::SatEnded>(last);
-  if (r.upper_bound && r.lower_bound && without_bounds) samples.push_back({recording.events.size() - 1, *r.upper_bound - *r.lower_bound, phase_of(last)});
+  if (r.upper_bound && r.lower_bound && without_bounds) samples.push_back({recording.events.size() - 1, *r.upper_bound - *r.lower_bound, phase_of(last), run});
   std::erase_if(samples, [](const Sample& x) { return !(x.gap > 0) || !std::isfinite(x.gap); });
   return samples;
 }
@@ -146,7 +149,7 @@ void bounds_plot(App& app, float width, float height) {
       const std::vector<Sample>& list = *shown;
       const Colour colour = other ? p.text_soft : list[i].phase == 0 ? p.simplex : p.chosen;
       const ImVec2 here{x_of(list[i].step), y_of(std::log10(list[i].gap))};
-      if (i > 0 && list[i - 1].phase == list[i].phase) draw->AddLine({x_of(list[i - 1].step), y_of(std::log10(list[i - 1].gap))}, here, packed(colour), theme.px(other ? 1.2f : 2));
+      if (i > 0 && list[i - 1].phase == list[i].phase && list[i - 1].run == list[i].run) draw->AddLine({x_of(list[i - 1].step), y_of(std::log10(list[i - 1].gap))}, here, packed(colour), theme.px(other ? 1.2f : 2));
       if (other) draw->AddCircle(here, theme.px(3), packed(colour), 12, theme.px(1.2f));
       else draw->AddCircleFilled(here, theme.px(2.5f), packed(colour));
     }

@@ -250,7 +250,7 @@ bool method(App& app, SceneFile& next) {
   ImGui::SameLine(theme.px(label_width));
   ImGui::SetNextItemWidth(-1);
   ImGui::PushFont(theme.mono);
-  if (ImGui::InputInt("##limit", &limit, 0, 0, ImGuiInputTextFlags_EnterReturnsTrue)) next.method.max_iterations = std::max(1, limit), edited = true;
+  if (ImGui::InputInt("##limit", &limit, 0, 0, ImGuiInputTextFlags_EnterReturnsTrue)) next.method.max_iterations = limit, edited = true;
   ImGui::PopFont();
   return edited;
 }
@@ -273,12 +273,12 @@ void scene_panel(App& app) {
   if (!next.scene.description.empty()) {
     ImGui::PushFont(theme.small);
     ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
-    ImGui::TextWrapped("%s%s", app.session.can_undo() ? "Edited. As it was opened: " : "", next.scene.description.c_str());
-    if (!next.scene.source.empty()) {
-      ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_faint));
-      ImGui::TextWrapped("Source: %s", next.scene.source.c_str());
-      ImGui::PopStyleColor();
-    }
+    ImGui::TextWrapped("%s", next.scene.description.c_str());
+    // On a line that is there before, too: what is edited stays where it is.
+    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_faint));
+    const std::string source = next.scene.source.empty() ? "" : "Source: " + next.scene.source;
+    ImGui::TextWrapped("%s%s", source.c_str(), !app.session.can_undo() ? " " : source.empty() ? "edited since" : ", edited since");
+    ImGui::PopStyleColor();
     ImGui::PopStyleColor();
     ImGui::PopFont();
   }

@@ -162,17 +162,22 @@ void bounds(App& app) {
   const Theme& theme = app.theme;
   if (!frame.lower_bound && !frame.upper_bound) return;
   const Event& event = app.session.recording().events[app.session.step()];
-  const bool before = std::holds_alternative<recorded::SupportQueried>(event) || std::holds_alternative<recorded::PolytopeSeeded>(event) || std::holds_alternative<recorded::FaceChosen>(event);
+  const bool before = std::holds_alternative<recorded::SupportQueried>(event) || std::holds_alternative<recorded::PolytopeSeeded>(event);
   section(theme, (std::string(mesh_parts(app.session.recording(), app.session.frame()) ? "DISTANCE TO THE TRIANGLE" : "SIGNED DISTANCE") + (before ? ", BEFORE THIS STEP" : "")).c_str());
   const auto row = [&](const char* label, const std::optional<double>& x, std::optional<std::size_t> source) {
     if (x) number_row(app, label, at_the_point(*x), theme.palette.text, source, all_digits(*x));
     else number_row(app, label, "unknown", theme.palette.text, source);
   };
   const auto from = last_of<recorded::SimplexReduced, recorded::GjkEnded, recorded::PolytopeGrown, recorded::PortalFound, recorded::AxisTested, recorded::PointsProjected, recorded::ProjectionsEnded, recorded::ClosedFormEnded>(app.session);
-  row("at most", frame.upper_bound, from);
+  // Of the polytope, which lies inside and holds the origin, the face chosen is the nearest: the depth is no less.
+  std::optional<double> upper = frame.upper_bound;
+  const auto chosen = frame.chosen ? frame.faces.find(*frame.chosen) : frame.faces.end();
+  const bool proven = !frame.epa_status && chosen != frame.faces.end() && !foreign(app.session.recording()) && !app.session.scene().scene.motion;
+  if (proven && upper) upper = std::min(*upper, -chosen->second.distance - app.session.meshes().radius);
+  row("at most", upper, proven ? last_of<recorded::FaceChosen>(app.session) : from);
   row("at least", frame.lower_bound, from);
-  if (!frame.lower_bound || !frame.upper_bound) return;
-  const double gap = *frame.upper_bound - *frame.lower_bound;
+  if (!frame.lower_bound || !upper) return;
+  const double gap = *upper - *frame.lower_bound;
   number_row(app, "gap", at_the_point(gap), theme.palette.text_soft, std::nullopt, all_digits(gap));
 }
 
@@ -263,7 +268,7 @@ void answer(App& app) {
 std::string place_text(Session& session) {
   const Event& event = session.recording().events[runs_at(session.recording(), session.step())];
   const char* phase = phase_name(event, session.frame());
-  const bool counted = !session.frame().parallelogram && !std::holds_alternative<recorded::State>(event);
+  const bool counted = !session.frame().parallelogram && !std::holds_alternative<recorded::State>(event) && !std::holds_alternative<recorded::ContactFound>(event) && !std::holds_alternative<recorded::ImpulseApplied>(event);
   const std::string iteration = counted ? std::string(std::strcmp(phase, "motion") == 0 ? "," : "") + " iteration " + std::to_string(session.frame().iteration) : "";
   return "Step " + std::to_string(session.step()) + " of " + std::to_string(session.count() - 1) + "  \xC2\xB7  " + phase + iteration;
 }

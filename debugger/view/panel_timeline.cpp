@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <utility>
+#include <vector>
 
 #include "debugger/view/app.h"
 #include "debugger/view/explain.h"
@@ -154,6 +155,30 @@ void number_bands(const Theme& theme, const std::vector<Band>& bands, ImVec2 at,
   }
 }
 
+/// What is seen where there is no room for all: the rarer the better.
+int rarity(const Event& event) {
+  if (std::holds_alternative<recorded::Warning>(event)) return 5;
+  if (std::holds_alternative<recorded::ImpulseApplied>(event)) return 4;
+  if (std::holds_alternative<recorded::ContactFound>(event)) return 3;
+  if (std::holds_alternative<recorded::PolytopeGrown>(event) || std::holds_alternative<recorded::PolytopeSeeded>(event)) return 2;
+  return std::holds_alternative<recorded::State>(event) || std::holds_alternative<recorded::CastAdvanced>(event) ? 1 : 0;
+}
+
+/// The events whose ticks are drawn: all, or of those that share two pixels the rarest.
+std::vector<std::size_t> ticks(const std::vector<Event>& events, float cell) {
+  const double width = cell >= 2 ? 1 : 2 / std::max(static_cast<double>(cell), 1e-6);  // in events
+  std::vector<std::size_t> drawn;
+  for (std::size_t i = 0; i < events.size();) {
+    const auto end = std::max<std::size_t>(i + 1, static_cast<std::size_t>((std::floor(static_cast<double>(i) / width) + 1) * width));
+    std::size_t rarest = i;
+    for (std::size_t k = i; k < std::min(end, events.size()); ++k)
+      if (rarity(events[k]) > rarity(events[rarest])) rarest = k;
+    drawn.push_back(rarest);
+    i = end;
+  }
+  return drawn;
+}
+
 /// Breakpoints as discs, bookmarks as their digits, on the lower edge and before all else.
 void marks(const App& app, ImDrawList* draw, float left, float bottom, float cell) {
   const Theme& theme = app.theme;
@@ -200,13 +225,16 @@ void scrubber(App& app) {
     i = end;
   }
   number_bands(theme, bands, at, at.x + size.x);
-  const std::size_t stride = std::max<std::size_t>(1, static_cast<std::size_t>(2 / std::max(cell, 1e-6f)));
   const float tick = std::clamp(cell * 0.4f, 1.f, theme.px(5));
-  for (std::size_t i = 0; i < s.count(); i += stride) {
-    const float x = at.x + (static_cast<float>(i) + 0.5f) * cell;
-    const float low = at.y + size.y - theme.px(6), high = at.y + theme.px(19);
-    draw->AddRectFilled({x - tick / 2, low - (low - high) * event_share(s.recording().events[i])}, {x + tick / 2, low}, packed(event_colour(p, s.recording().events[i])), 1);
-  }
+  const auto draw_tick = [&](std::size_t i, float width) {
+    const Event& event = s.recording().events[i];
+    const float x = at.x + (static_cast<float>(i) + 0.5f) * cell, low = at.y + size.y - theme.px(6), high = at.y + theme.px(19);
+    draw->AddRectFilled({x - width / 2, low - (low - high) * event_share(event)}, {x + width / 2, low}, packed(event_colour(p, event)), 1);
+  };
+  const std::vector<std::size_t> drawn = ticks(s.recording().events, cell);
+  for (const std::size_t i : drawn) draw_tick(i, tick);
+  for (const std::size_t i : drawn)
+    if (rarity(s.recording().events[i]) >= 3) draw_tick(i, std::max(tick, theme.px(2.5f)));  // before those beside them
   if (s.parting() && s.parting()->event < s.count()) {
     const float x = at.x + (static_cast<float>(s.parting()->event) + 0.5f) * cell;
     draw->AddLine({x, at.y}, {x, at.y + size.y}, packed(p.text_soft), theme.px(2));

@@ -308,10 +308,11 @@ std::string Session::edit(const SceneFile& next) {
 }
 
 void Session::go_back_to(Past past) {
-  if (!past.run) return take(record(past.scene));
-  std::vector<Finding> findings = check(*past.run);
-  take(std::move(*past.run));
+  std::vector<Finding> findings;
+  if (past.run) findings = check(*past.run);
+  take(past.run ? std::move(*past.run) : record(past.scene));
   findings_ = std::move(findings);
+  go_to(past.step);
 }
 
 void Session::undo() {

@@ -106,8 +106,9 @@ class Session {
   struct Past {
     SceneFile scene;
     std::optional<Recording> run;
+    std::size_t step = 0;
   };
-  Past now() const { return {recording_.scene, foreign(recording_) ? std::optional(recording_) : std::nullopt}; }
+  Past now() const { return {recording_.scene, foreign(recording_) ? std::optional(recording_) : std::nullopt, step_}; }
   void go_back_to(Past past);
   std::vector<Past> undo_, redo_;
   bool grouping_ = false, edit_open_ = false;
