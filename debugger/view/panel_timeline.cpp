@@ -337,7 +337,8 @@ void event_list(App& app, float width, float height) {
   const float row = ImGui::GetTextLineHeightWithSpacing(), rows = std::max(1.f, std::floor(height / row));  // whole rows only
   ImGui::BeginChild("events", {width, rows * row}, false);
   static std::size_t shown = 0;
-  if (shown != s.step()) ImGui::SetScrollY(std::max(0.f, std::round(static_cast<float>(s.step()) - rows / 2) * row));
+  static float shown_rows = 0;  // a window that has become smaller still shows the step
+  if (shown != s.step() || std::exchange(shown_rows, rows) != rows) ImGui::SetScrollY(std::max(0.f, std::round(static_cast<float>(s.step()) - rows / 2) * row));
   shown = s.step();
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(s.count()), row);
