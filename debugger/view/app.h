@@ -169,6 +169,8 @@ std::string parting_text(const Session& session);
 bool answers_agree(const Result& a, const Result& b);
 /// "Step 14 of 22 · EPA iteration 1"
 std::string place_text(Session& session);
+/// Of ASCII letters: for comparisons in either case.
+std::string lower_case(std::string text);
 /// Where `text` is found, in either case: a condition if it compares something, else a part of the event's name and summary, or where no step has it there
 /// of a step's title and sentence (of at most 20,000 steps).
 std::optional<std::size_t> find_text(const Session& session, const std::string& text, std::size_t from, bool backwards);

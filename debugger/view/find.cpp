@@ -6,19 +6,20 @@
 #include "debugger/view/explain.h"
 
 namespace gjkdbg {
-namespace {
 
-std::string lower(std::string text) {
+std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
+
+namespace {
 
 /// The next step after `from`, or before it, round and round, whose text holds what is looked for.
 template <class TextOf>
 std::optional<std::size_t> next_with(const std::string& wanted, std::size_t count, std::size_t from, bool backwards, const TextOf& text_of) {
   for (std::size_t k = 1; k <= count; ++k) {
     const std::size_t step = backwards ? (from + count - k) % count : (from + k) % count;
-    if (lower(text_of(step)).find(wanted) != std::string::npos) return step;
+    if (lower_case(text_of(step)).find(wanted) != std::string::npos) return step;
   }
   return std::nullopt;
 }
@@ -32,7 +33,7 @@ std::optional<std::size_t> find_text(const Session& session, const std::string& 
   if (text.empty()) return std::nullopt;
   const Recording& recording = session.recording();
   if (text.find_first_of("<>=") != std::string::npos || text.starts_with("any ")) return find_step(Condition(text), recording, session.findings(), from, backwards);
-  const std::string wanted = lower(text);
+  const std::string wanted = lower_case(text);
   const std::size_t count = recording.events.size();
   const auto listed = [&](std::size_t step) {
     const Event& event = recording.events[step];

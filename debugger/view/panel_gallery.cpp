@@ -1,6 +1,5 @@
 // The left panel: the gallery in lessons, each scene with a picture of itself.
 #include <algorithm>
-#include <cctype>
 
 #include "debugger/view/app.h"
 
@@ -45,11 +44,6 @@ bool scene_row(App& app, const std::string& name, bool current) {
   if (two) draw->AddText(theme.small, theme.small->FontSize, {left, y + line}, colour, name.substr(cut + 1).c_str());
   else draw->AddText(theme.small, theme.small->FontSize, {left, y + line}, faint, shortened(theme.small, app.thumbnails().description(app.gallery(), name), room).c_str());
   return clicked;
-}
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
 }
 
 /// The scenes whose names or descriptions hold the text, in either case.
