@@ -9,6 +9,7 @@
 #include "algo/motion.h"
 #include "algo/ray_cast.h"
 #include "algo/root_finding.h"
+#include "algo/working_scale.h"
 #include "shapes/world_support.h"
 
 namespace gjkdbg {
@@ -214,26 +215,26 @@ class Caster {
   Meeting ray(const Pair& p) {
     const Scene two = pair_at(p, 0);
     const Body &body_a = two.bodies[0], &body_b = two.bodies[1];
-    const Convex<D, S> a(body_a.shape), b(body_b.shape);
+    const Vector<D, double> relative = (velocity(p.second) - velocity(p.first)) * (1 - start_);
+    const double scale = working_scale<S>(body_a, body_b, relative.cwiseAbs().maxCoeff());
+    const Convex<D, S> a(body_a.shape, scale), b(body_b.shape, scale);
     using Difference = MinkowskiDifference<D, S, Convex<D, S>>;
-    Difference cores(a, b, body_a.pose, body_b.pose, 1);
+    Difference cores(a, b, body_a.pose, body_b.pose, scale);
     InflatedDifference<Difference> difference(cores);
-    const WorkingFrame<D, S> frame(body_a.pose, a.reference(), 1);
-    const Vector<D, double> relative = velocity(p.second) - velocity(p.first);
+    const WorkingFrame<D, S> frame(body_a.pose, a.reference(), scale);
     // The ray is -t (vA - vB), seen from body 0.
-    const Vector<D, S> along = (frame.rotation.transpose() * Vector<D, double>(relative * (1 - start_))).template cast<S>();
-    const S reach = std::max(static_cast<S>(target_), S(2) * difference.rounding_floor());
+    const RayOfMotion<Vector<D, S>> along{(frame.rotation.transpose() * Vector<D, double>(relative * scale)).template cast<S>(), start_, {p.first, p.second}};
+    const S reach = std::max(static_cast<S>(target_ * scale), S(2) * difference.rounding_floor());
     RayCastResult<D, S> found;
     if (trace_) {
       WorldTrace<D, S> trace(frame, numbers_, *trace_);
-      found = ray_cast(difference, along, reach, settings_.max_iterations, {p.first, p.second}, trace);
+      found = ray_cast(difference, along, reach, settings_.max_iterations, trace);
       numbers_.next_run();
     } else {
       NoTrace silent;
-      found = ray_cast(difference, along, reach, settings_.max_iterations, {p.first, p.second}, silent);
+      found = ray_cast(difference, along, reach, settings_.max_iterations, silent);
     }
-    iterations_ += found.iterations;
-    supports_ += cores.support_calls();
+    iterations_ += found.iterations, supports_ += cores.support_calls();
     Meeting m;
     m.status = found.status;
     if (found.status == CastStatus::initially_overlapping && start_ > 0) m.status = CastStatus::hit;
@@ -361,8 +362,7 @@ class Caster {
     r.status = cast_status_names[static_cast<std::size_t>(first_.status)];
     r.intersecting = first_.status == CastStatus::hit || first_.status == CastStatus::initially_overlapping;
     r.iterations = iterations_, r.support_calls = supports_;
-    r.time = first_.time;
-    r.touching_at = touching_at_;
+    r.time = first_.time, r.touching_at = touching_at_;
     if (r.intersecting) {
       r.pair = {first_.pair.first, first_.pair.second};
       r.normal = first_.gap.normal, r.witness_a = first_.gap.witness_a, r.witness_b = first_.gap.witness_b;

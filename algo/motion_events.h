@@ -87,7 +87,9 @@ struct ContactFound {
   }
 };
 
-/// The second body gets `impulse`, the first its opposite. Velocities are those of the bodies' centres, first and second.
+/// Of a simulation: the second body gets `impulse` (mass times velocity) in the whole step, the first its opposite; the velocities are those of the centres of
+/// mass, before the first and after the last impulse of the step, at all contacts. Of a cast's response, which knows no masses: `impulse` is the change of the
+/// second body's velocity, zero where that body does not move, and the velocities are those of the poses' positions.
 template <class V, class Store>
 struct ImpulseApplied {
   static constexpr std::string_view kind = "impulse_applied";

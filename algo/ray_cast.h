@@ -25,19 +25,28 @@ template <int D, class S>
 struct RayCastResult {
   CastStatus status = CastStatus::miss;
   int iterations = 0;
-  S time = 0;                                  ///< the ray is outside until here
-  Vector<D, S> normal = Vector<D, S>::Zero();  ///< unit, from body 0 towards body 1; zero when the ray began inside
-  Vector<D, S> point_a = Vector<D, S>::Zero(), point_b = Vector<D, S>::Zero();  ///< of the bodies as they began, where they will touch
+  S time = 0;                                  ///< the ray is outside until here; its share, 0 to 1
+  Vector<D, S> normal = Vector<D, S>::Zero();  ///< unit, from body 0 towards body 1, in body 0's frame: of the last plane; zero without one
+  Vector<D, S> point_a = Vector<D, S>::Zero(), point_b = Vector<D, S>::Zero();  ///< of the bodies as they began, where they will touch; not after a miss
 };
 
-/// `difference` answers with points of the bodies, radii included (InflatedDifference). `ray` over the unit time; `reach`: at this distance it
-/// is a hit. `closing`: the difference's own numbers of the pair, for the trace.
+/// From the origin along body 1's motion relative to body 0, in body 0's axes.
+template <class V>
+struct RayOfMotion {
+  V vector;               ///< over what is left of the interval, from `start` to 1
+  double start = 0;       ///< of the whole interval: the trace tells its times
+  std::array<int, 2> pair{};  ///< the bodies' numbers, for the trace
+};
+
+/// `difference` answers with points of the bodies, radii included (InflatedDifference). `reach`: at this distance it is a hit. `max_iterations`: supports after
+/// the first.
 template <class Difference, class Trace>
-RayCastResult<Difference::D, typename Difference::S> ray_cast(Difference& difference, const Vector<Difference::D, typename Difference::S>& ray,
-                                                              typename Difference::S reach, int max_iterations, Edge pair, Trace& trace) {
+RayCastResult<Difference::D, typename Difference::S> ray_cast(Difference& difference, const RayOfMotion<Vector<Difference::D, typename Difference::S>>& motion,
+                                                              typename Difference::S reach, int max_iterations, Trace& trace) {
   constexpr int D = Difference::D;
   using S = typename Difference::S;
   using V = Vector<D, S>;
+  const V& ray = motion.vector;
   RayCastResult<D, S> result;
   Simplex<D, S> simplex;
   V x = V::Zero();
@@ -67,8 +76,8 @@ RayCastResult<Difference::D, typename Difference::S> ray_cast(Difference& differ
       const S step = -beyond / along;
       result.normal = v / distance;
       if constexpr (traced<Trace>)
-        trace(CastAdvanced<V, Viewed>{result.iterations, static_cast<double>(result.time), pair, static_cast<double>(beyond / distance), result.normal,
-                                      static_cast<double>(-along / distance)});
+        trace(CastAdvanced<V, Viewed>{result.iterations, motion.start + static_cast<double>(result.time) * (1 - motion.start), motion.pair,
+                                      static_cast<double>(beyond / distance), result.normal, static_cast<double>(-along / distance) / (1 - motion.start)});
       if (result.time + step > 1) return end(CastStatus::miss);
       clipped = result.time + step > result.time;
       result.time += step;

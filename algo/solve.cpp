@@ -12,26 +12,15 @@
 #include "algo/prepared_pair.h"
 #include "algo/simulate.h"
 #include "algo/solve_pair.h"
+#include "algo/working_scale.h"
 #include "shapes/error.h"
 
 namespace gjkdbg {
 namespace {
 
-/// Lengths within 2^-range .. 2^range are left alone; others are brought near 1 by a power of two, so that products of
-/// four lengths neither overflow nor vanish. Scaling by a power of two rounds nothing. (Below the normal numbers 2^1000 is near enough, and a number.)
-double working_scale(double size, int range) {
-  if (size == 0) return 1;
-  const int exponent = std::ilogb(size);
-  return std::abs(exponent) <= range ? 1 : std::ldexp(1.0, std::min(-exponent, 1000));
-}
-
-template <class S>
-constexpr int safe_range = std::is_same_v<S, float> ? 16 : 64;
-
 template <int D, class S>
 Result solve_convex(const Body& a, const Body& b, const Query query, const Settings& settings, TraceSink* sink, TraceNumbers& numbers, std::vector<SimplexPoint>* simplex) {
-  const double between = (b.pose.position - a.pose.position).cwiseAbs().maxCoeff();
-  const double scale = working_scale(std::max({size_of(a.shape), size_of(b.shape), between}), safe_range<S>);
+  const double scale = working_scale<S>(a, b);
   if (!sink) {
     const auto pair = prepare(a, b, D, settings.scalar, scale);
     if (!simplex) return pair->run(settings, query);
@@ -98,7 +87,8 @@ Result solve_scene(const Scene& scene, const Settings& settings, TraceSink* sink
   std::optional<Result> total;
   std::vector<Result> parts;
   std::vector<SimplexPoint> none;
-  if (parts_a.size() * parts_b.size() > 1) simplex = &none;
+  const auto is_mesh = [](const Body& body) { return std::holds_alternative<Mesh>(body.shape.geometry); };
+  if (is_mesh(a) || is_mesh(b)) simplex = &none;  // a given simplex was not held against its triangles
   for (const Shape& part_a : parts_a)
     for (const Shape& part_b : parts_b) {
       const Body one{a.name, part_a, a.pose}, other{b.name, part_b, b.pose};

@@ -307,7 +307,7 @@ struct Apply {
       if (placed && body.motion) body.motion->velocity = frame.places[i].velocity;
       const Body at = moved(body, time - from, scene.dimension);
       Frame::Place place{at.pose.position, at.pose.matrix, AnyVector::Zero(scene.dimension), {}};
-      if (at.motion) place.velocity = at.motion->velocity, place.spin.assign(at.motion->angular_velocity.begin(), at.motion->angular_velocity.end());
+      if (at.motion) place.velocity = at.motion->velocity, place.angular_velocity = in_degrees(at.motion->angular_velocity);
       places.push_back(std::move(place));
     }
     frame.places = std::move(places);

@@ -78,7 +78,7 @@ struct Frame {
     AnyVector position;
     AnyMatrix rotation;
     AnyVector velocity;
-    std::vector<double> spin;  ///< radians per unit of time: 3 numbers in space, 1 in the plane
+    std::vector<double> angular_velocity;  ///< degrees per unit of time, as in BodyState: 3 numbers in space, 1 in the plane, none on a line
     bool operator==(const Place&) const = default;
   };
   std::vector<Place> places;

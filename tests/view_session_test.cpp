@@ -1,5 +1,10 @@
 // What is open and what becomes of it: another program's run, breakpoints, answers that are not proven, numbers in columns.
 #include <imgui_internal.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <utility>
 
 #include "debugger/view/explain.h"
 #include "tests/support/window_fixture.h"
@@ -90,6 +95,69 @@ TEST(Numbers, HaveTheirPointsInOneColumn) {
     EXPECT_EQ(text.size() - text.find_first_of(".e "), 7u) << "'" << text << "'";
     EXPECT_NEAR(std::stod(text), x, 5e-3 * std::abs(x));
   }
+}
+
+TEST_F(OpenRun, NoFileIsSavedOverUnasked) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("gjkdbg-save-" + std::to_string(getpid()));
+  std::filesystem::create_directory(folder);
+  const std::string there = (folder / "there.scene.json").string();
+  std::ofstream(there) << "{}";
+  const auto ask_to_save = [&](const std::string& name) {
+    host.press(Key::s, false, true);
+    host.frame();
+    host.type(name);  // over the suggested name, which is selected
+    host.press(Key::enter);
+  };
+  ask_to_save(there);
+  EXPECT_EQ(app.save_requested, "");
+  host.frame();
+  host.press(Key::enter);
+  EXPECT_EQ(std::exchange(app.save_requested, {}), there);
+  app.message = "no room";  // the host's
+  host.frame(), host.frame();
+  EXPECT_EQ(app.message, "") << "it is said in the dialog, where the name stands";
+  EXPECT_TRUE(ImGui::IsPopupOpen("ask", ImGuiPopupFlags_AnyPopupId));
+  host.press(Key::escape), host.press(Key::escape);
+  EXPECT_FALSE(ImGui::IsPopupOpen("ask", ImGuiPopupFlags_AnyPopupId));
+  ask_to_save((folder / "new.txt").string());
+  EXPECT_EQ(app.save_requested, "") << "no ending says what is to be saved";
+  host.press(Key::escape), host.press(Key::escape);
+  ask_to_save((folder / "new.png").string());
+  EXPECT_EQ(std::exchange(app.save_requested, {}), (folder / "new.png").string());
+  host.frame(), host.frame();
+  EXPECT_FALSE(ImGui::IsPopupOpen("ask", ImGuiPopupFlags_AnyPopupId));
+  std::filesystem::remove_all(folder);
+}
+
+TEST_F(OpenRun, AFileThatCannotBeOpenedLeavesItsName) {
+  host.press(Key::o, false, true);
+  host.frame();
+  host.type("/no/such.scene.json");
+  host.press(Key::enter);
+  host.frame();
+  EXPECT_TRUE(ImGui::IsPopupOpen("ask", ImGuiPopupFlags_AnyPopupId));
+  EXPECT_EQ(session.title(), "box-box-deep");
+  host.press(Key::escape), host.press(Key::escape);
+  host.press(Key::o, false, true);
+  host.frame();
+  const std::string folder = app.gallery().file("2d-deep").parent_path().string();
+  host.type(folder + "/2d-dee");
+  ImGui::GetIO().KeysDown[258] = true;  // Tab
+  host.frame();
+  ImGui::GetIO().KeysDown[258] = false;
+  host.frame();
+  host.press(Key::enter);
+  EXPECT_EQ(session.title(), "2d-deep");
+}
+
+TEST_F(OpenRun, ADecimalCommaIsAPoint) {
+  host.press(Key::g, false, true);  // letters and points are dropped from a whole number, digits are not
+  host.frame();
+  host.type("1,");
+  host.frame();
+  const ImGuiInputTextState& field = ImGui::GetCurrentContext()->InputTextState;
+  ASSERT_EQ(field.CurLenW, 2);
+  EXPECT_EQ(field.TextW[1], '.');
 }
 
 }  // namespace

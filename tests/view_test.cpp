@@ -76,7 +76,7 @@ TEST_F(Window, OpensAndSavesByName) {
   const bool dark = app.preferences.dark;
   feed_key(Key::enter, true);
   host.frame();
-  EXPECT_EQ(app.save_requested, "box-box-deep.scene.json");
+  EXPECT_EQ(std::exchange(app.save_requested, {}), "box-box-deep.scene.json");
   feed_key(Key::enter, false);
   host.press(Key::t);  // in the very next frame: a key again, no text
   EXPECT_NE(app.preferences.dark, dark);
@@ -256,12 +256,11 @@ TEST_F(Window, StopsWhereAConditionHolds) {
 
 TEST_F(Window, ARunBesideIsToldByWhatDiffers) {
   const std::string gallery = GJKDBG_GALLERY;
-  app.compare(gallery + "/box-box-apart.scene.json");
+  app.compare_or_throw(gallery + "/box-box-apart.scene.json");
   EXPECT_EQ(session.other_title(), "box-box-apart");
-  app.compare(gallery + "/box-box-deep.scene.json");  // the scene that is open
+  app.compare_or_throw(gallery + "/box-box-deep.scene.json");  // the scene that is open
   EXPECT_EQ(session.other_title(), "gjk · double");
-  app.compare(gallery + "/no-such.scene.json");
-  EXPECT_NE(app.message.find("no-such"), std::string::npos);
+  EXPECT_THROW(app.compare_or_throw(gallery + "/no-such.scene.json"), Error);
   EXPECT_EQ(session.other_title(), "gjk · double");
 }
 

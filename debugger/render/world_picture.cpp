@@ -110,14 +110,14 @@ class WorldPainter : public Painter {
     for (std::size_t i = 0; i < frame_.places.size(); ++i) {
       const Frame::Place& place = frame_.places[i];
       const ViewPoint from = to_view(place.position);
-      if (place.spin.size() == 3) {
-        const ViewPoint w(place.spin[0], place.spin[1], place.spin[2]);
+      if (place.angular_velocity.size() == 3) {
+        const ViewPoint w(place.angular_velocity[0], place.angular_velocity[1], place.angular_velocity[2]);
         if (!(w.norm() > least_share * fastest)) continue;
         const ViewPoint tip = from + w * (0.3 * unit() / fastest);
         picture_.arrow(from, tip, palette_.chosen);
         label(tip, "turning" + of_body(i), palette_.chosen);
-      } else if (place.spin.size() == 1 && std::abs(place.spin[0]) > least_share * fastest) {
-        const double sweep = place.spin[0] / fastest * 1.5, r = 0.14 * unit();
+      } else if (place.angular_velocity.size() == 1 && std::abs(place.angular_velocity[0]) > least_share * fastest) {
+        const double sweep = place.angular_velocity[0] / fastest * 1.5, r = 0.14 * unit();
         const auto on_arc = [&](double share) { return ViewPoint(from + r * ViewPoint(std::cos(share * sweep), std::sin(share * sweep), 0)); };
         for (int k = 0; k < 11; ++k) picture_.line(on_arc(k / 12.0), on_arc((k + 1) / 12.0), palette_.chosen, 2);
         picture_.arrow(on_arc(11 / 12.0), on_arc(1), palette_.chosen, 2);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "debugger/view/explain.h"
+#include "debugger/view/input.h"
 
 namespace gjkdbg {
 
@@ -36,15 +37,6 @@ void App::open_or_throw(const std::filesystem::path& file) {
 
 void App::open_gallery(const std::string& name) { open(gallery_.file(name)); }
 
-void App::compare(const std::filesystem::path& file) {
-  try {
-    compare_or_throw(file);
-    message.clear();
-  } catch (const Error& e) {
-    message = e.line();
-  }
-}
-
 void App::compare_or_throw(const std::filesystem::path& file) {
   Session read;
   read.open(file);
@@ -74,6 +66,7 @@ void App::frame() {
   settings.labels = preferences.labels, settings.grid = preferences.grid, settings.regions = preferences.regions, settings.bounds = preferences.bounds;
   settings.newest_first = preferences.newest_first;
   if (session.is_open() && fitted_ != session.opened()) fit_views(), fitted_ = session.opened();
+  read_decimal_commas();
   keys();
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({0, 0});

@@ -38,7 +38,7 @@ class App {
   bool quit = false;          ///< the person wants to leave
   std::string message;        ///< the last error, shown until the next success
   std::string notice;         ///< the last thing done ("copied"), shown for a while
-  std::string save_requested; ///< a file name the person gave; the host writes it and clears this
+  std::string save_requested; ///< a file name the person gave; the host writes it, puts what went wrong into `message`, and clears this
   std::string stop_when_text; ///< the condition as typed
   std::string stop_when_error;
   char gallery_search[64] = {};  ///< what is looked for in the gallery
@@ -48,9 +48,7 @@ class App {
   /// The same: a scene, a recording, a chart.json or an atlas.json; throws Error.
   void open_or_throw(const std::filesystem::path& file);
   void open_gallery(const std::string& name);
-  /// Another recording beside this one: told by its method where it is of the same scene.
-  void compare(const std::filesystem::path& file);
-  /// The same; throws Error.
+  /// Another recording beside this one: told by its method where it is of the same scene. Throws Error.
   void compare_or_throw(const std::filesystem::path& file);
   const Gallery& gallery() const { return gallery_; }
   Thumbnails& thumbnails() { return thumbnails_; }
@@ -90,6 +88,9 @@ class App {
   void key_sheet();
   void dialogs();
   void file_dialog();
+  void file_list();
+  void file_entered();
+  void file_saved();
   void find_dialog();
   void find_again(bool backwards);
   void go_to_dialog();
@@ -103,6 +104,12 @@ class App {
   std::string find_error_;
   std::optional<std::size_t> found_;  ///< by the dialog's last search
   char file_buffer_[1024] = {}, find_buffer_[256] = {};
+  std::string file_error_;                ///< what became of the name in the dialog
+  std::string replacing_;                 ///< a file that is there; saved over when it is asked for once more
+  bool saving_ = false;                   ///< the host has been asked to
+  bool name_wanted_ = false;              ///< with the next frame the name can be typed on
+  std::optional<std::string> listed_for_; ///< the name whose possible ends are listed
+  std::vector<std::string> listed_;
   int go_to_ = 0;
   float notice_left_ = 0;  ///< seconds
 };

@@ -1,4 +1,4 @@
-// What the window asks for: a file, a text to find, a step.
+// What the window asks for: a text to find, a step; a file in file_dialog.cpp.
 #include <algorithm>
 #include <cstring>
 #include <utility>
@@ -14,6 +14,7 @@ void App::dialogs() {
     asked_ = std::exchange(asking_, Asking::nothing);
     ImGui::OpenPopup("ask");
     find_error_.clear(), found_.reset();
+    file_error_.clear(), replacing_.clear(), listed_for_.reset(), saving_ = false;
     go_to_ = session.is_open() ? static_cast<int>(session.step()) : 0;
     const std::string suggestion = asked_ == Asking::save ? session.title() + ".scene.json" : "";
     if (asked_ == Asking::save || asked_ == Asking::open || asked_ == Asking::compare) {
@@ -35,27 +36,6 @@ void App::dialogs() {
   else file_dialog();
   if (key_pressed(Key::escape)) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();
-}
-
-void App::file_dialog() {
-  const bool saving = asked_ == Asking::save;
-  ImGui::TextUnformatted(saving ? "Save as" : asked_ == Asking::compare ? "Compare with a recording, or a scene" : "Open a scene or a recording");
-  if (saving) {
-    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
-    ImGui::TextWrapped("NAME.scene.json the scene, NAME.recording.json every event, NAME.png or .svg this step, NAME.gif the replay");
-    ImGui::PopStyleColor();
-  }
-  if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
-  ImGui::SetNextItemWidth(-1);
-  const bool entered = ImGui::InputText("##file", file_buffer_, sizeof file_buffer_, ImGuiInputTextFlags_EnterReturnsTrue);
-  if (ImGui::Button(saving ? "Save" : asked_ == Asking::compare ? "Compare" : "Open") || entered) {
-    if (saving) save_requested = file_buffer_;
-    else if (asked_ == Asking::compare) compare(file_buffer_);
-    else open(file_buffer_);
-    ImGui::CloseCurrentPopup();
-  }
-  ImGui::SameLine();
-  if (ImGui::Button("Cancel")) ImGui::CloseCurrentPopup();
 }
 
 void App::find_dialog() {
@@ -92,6 +72,7 @@ void App::go_to_dialog() {
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
   const bool entered = ImGui::InputInt("##step", &go_to_, 0, 0, ImGuiInputTextFlags_EnterReturnsTrue);
+  takes_a_number();
   if (ImGui::Button("Go") || entered) {
     session.playing = false;
     session.go_to(static_cast<std::size_t>(std::clamp<long>(go_to_, 0, static_cast<long>(session.count()) - 1)));

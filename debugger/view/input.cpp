@@ -1,6 +1,7 @@
 #include "debugger/view/input.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -27,6 +28,11 @@ struct Presses {
 Presses& noted() {
   static Presses of_this_frame;
   return of_this_frame;
+}
+
+ImGuiID& number_field() {
+  static ImGuiID last = 0;
+  return last;
 }
 
 }  // namespace
@@ -60,6 +66,17 @@ void map_keys() {
                                        {ImGuiKey_Backspace, 259}, {ImGuiKey_Enter, 257}, {ImGuiKey_Escape, 256}, {ImGuiKey_Space, 32}};
   for (const auto& [key, code] : pairs) io.KeyMap[key] = code;
 #endif
+}
+
+void takes_a_number() {
+  if (ImGui::IsItemActive()) number_field() = ImGui::GetCurrentContext()->ActiveId;
+}
+
+void read_decimal_commas() {
+  const ImGuiID active = ImGui::GetCurrentContext()->ActiveId;
+  if (active == 0 || active != number_field()) return;
+  for (ImWchar& c : ImGui::GetIO().InputQueueCharacters)
+    if (c == ',') c = '.';
 }
 
 }  // namespace gjkdbg

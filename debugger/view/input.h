@@ -1,6 +1,8 @@
 // Keys, by what they mean here. Hides the change of ImGui's input interface in 1.87 (from KeysDown to AddKeyEvent).
 #pragma once
 
+#include <vector>
+
 namespace gjkdbg {
 
 enum class Key {
@@ -24,5 +26,9 @@ bool control_held();
 /// For tests and pictures, where no window feeds the keys: presses and lets go. Call `map_keys` once per context where no GLFW does.
 void feed_key(Key key, bool down);
 void map_keys();
+/// A comma that is typed into a field for a number is its point: ImGui would drop it, and "3,5" would be 35. The one after every such field, the other between
+/// ImGui::NewFrame and the first.
+void takes_a_number();
+void read_decimal_commas();
 
 }  // namespace gjkdbg

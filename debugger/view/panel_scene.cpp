@@ -5,6 +5,7 @@
 #include "algo/motion.h"
 #include "debugger/view/app.h"
 #include "debugger/view/explain.h"
+#include "debugger/view/input.h"
 
 namespace gjkdbg {
 
@@ -24,6 +25,7 @@ bool numbers(const Theme& theme, const char* label, double* values, int count, f
   for (int i = 0; i < count; ++i) values[i] += 0.0;  // no "-0"
   const double high = 1e12;
   const bool edited = ImGui::DragScalarN("##values", ImGuiDataType_Double, values, count, speed, low, low ? &high : nullptr, "%.4g");
+  takes_a_number();
   ImGui::PopID();
   ImGui::PopFont();
   return edited;
@@ -244,6 +246,7 @@ bool method(App& app, SceneFile& next) {
   ImGui::PushFont(theme.mono);
   double tolerance = now.tolerance;
   if (ImGui::InputDouble("##tolerance", &tolerance, 0, 0, "%.3g", ImGuiInputTextFlags_EnterReturnsTrue)) next.method.tolerance = tolerance, edited = true;
+  takes_a_number();
   ImGui::PopFont();
   int limit = now.max_iterations;
   setting_label(theme, "max iterations", "Where each of GJK, EPA and the others gives up, and says so.");

@@ -79,8 +79,8 @@ class Solver {
   static std::string text(int x) { return std::to_string(x); }
   template <class T>
   static std::string text(const std::vector<T>& list) {
-    std::string out;
-    for (const T& x : list) out += (out.empty() ? "[" : ",") + text(x);
+    std::string out = "[";
+    for (const T& x : list) out += (out.size() > 1 ? "," : "") + text(x);
     return out + "]";
   }
   /// Where a field's value begins. The replies are written by gjkdbg, without spaces.
