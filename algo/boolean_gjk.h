@@ -39,7 +39,7 @@ class BooleanGjk {
   using Point = SupportPoint<D, S>;
 
  public:
-  /// `difference` answers with points of the bodies themselves, radii included (InflatedDifference).
+  /// `difference` answers with points of the bodies themselves, radii included (InflatedDifference). `direction`: body 0's frame, not zero.
   BooleanGjk(Difference& difference, const V& direction, int max_iterations, Trace& trace)
       : difference_(difference), d_(direction), max_iterations_(max_iterations), trace_(trace) {}
 

@@ -34,7 +34,7 @@
 
 namespace gjkdbg {
 
-/// A body's core where it is a box of which no side is zero: for two of them the theorem is at its plainest.
+/// The body's core where it is a box with no side of zero, else null.
 template <int D, class S, class Body>
 const BoxCore<D, S>* solid_box(const Body& body) {
   if constexpr (requires { body.core(); }) {

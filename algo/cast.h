@@ -11,8 +11,12 @@
 // per unit of time: until t + d / bound they cannot meet. Where bound <= 0 they never do along this n, which separates them for good: the pair
 // is left out. The time goes on to the least of these over all pairs, and the distances are taken anew.
 //
+// Of bodies that turn, |n x w| r is mostly too much. With s the speed along n now and k >= |w|^2 r the most it can change by, a gap d is open until
+// s t + k t^2 / 2 = d (turning_bound in algo/motion.h); the smaller of the two mean speeds is `bound`. A step ends with half the tolerated gap left.
+//
 // Root finding (Catto, "Continuous Collision", GDC 2013, with the difference that no root is passed over): the gap along n alone, supports of the
-// two moved bodies, is followed to where it closes; only then GJK is asked for a new n.
+// two moved bodies, is followed to where it closes, and along one that turns on as the last two
+// did; the longer counts (algo/root_finding.h). Only then GJK is asked for a new n.
 //
 // Ray cast (van den Bergen, "Ray Casting against General Convex Objects", 2004): bodies that do not turn meet at time t when t (vB - vA)
 // lies in A - B; GJK walks along that ray. See algo/ray_cast.h.

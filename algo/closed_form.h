@@ -80,6 +80,7 @@ class ClosedForm {
     floor_ = static_cast<S>(16 * static_cast<double>(std::numeric_limits<S>::epsilon()) / 2 * size);
   }
 
+  /// In world coordinates and scene lengths. Query: intersect, distance or penetration; others are answered as penetration. Counts no supports.
   Result run(Query query) {
     trace_(ClosedFormBegan<V, Viewed>{c_, u_, v_});
     Nearest nearest = solve(c_, false);

@@ -1,7 +1,7 @@
 // The closest point of a simplex to the origin by brute force in twice the precision: slow, and as good as exact.
 //
-// Every subset of up to three vertices (and, in D dimensions, all D + 1) is tried: the origin is projected on its
-// affine hull, and among the subsets whose projection has no negative weight the nearest one is the answer.
+// Every vertex, every edge and in 3D every triangle is tried: the origin is projected on its affine hull, and among those
+// whose projection has no negative weight the nearest one is the answer.
 // Called where the fast sub-algorithms meet a sliver they cannot judge.
 #pragma once
 
@@ -19,7 +19,8 @@ class WideClosestPoint {
 
  public:
   /// `w`: `size` vertices, 1 <= size <= D + 1. Never reports `enclosed`: the sides of the full simplex are for the
-  /// caller to judge; it is asked for the nearest point of the boundary.
+  /// caller to judge; it is asked for the nearest point of the boundary. (In 1D the edge is the
+  /// whole simplex: the origin inside it is v = 0, with two weights.)
   static ClosestFeature<D, S> of_boundary(const Vector<D, S>* w, int size) {
     WideClosestPoint search(w, size);
     for (int i = 0; i < size; ++i) search.vertex(i);

@@ -19,12 +19,12 @@ template <int D, class S>
 struct EpaResult {
   EpaStatus status = EpaStatus::converged;
   int iterations = 0;
-  int face = -1;                              ///< number of the answering face; -1 when flat
+  int face = -1;                              ///< number of the answering face; -1 where the difference is flat: status flat, or separated by its plane
   Vector<D, S> normal = Vector<D, S>::Zero();  ///< unit, out of the difference: from body 0 towards body 1
   S depth = 0;             ///< of the cores: support along `normal`; negative when `separated`
   S lower_bound = 0;       ///< of the cores' depth
   S upper_bound = 0;
-  Vector<D, S> point_a = Vector<D, S>::Zero(), point_b = Vector<D, S>::Zero();  ///< core points whose difference is nearest
+  Vector<D, S> point_a = Vector<D, S>::Zero(), point_b = Vector<D, S>::Zero();  ///< core points, a - b nearest to depth * normal; zero where `face` is -1: GJK's simplex has them
 };
 
 /// Storage that may be kept from one call to the next.

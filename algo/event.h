@@ -37,6 +37,6 @@ constexpr Field<Event, Member> field(std::string_view name, Member Event::*membe
   return {name, member};
 }
 
-using Edge = std::array<int, 2>;
+using Edge = std::array<int, 2>;  ///< the numbers of an edge's two vertices, or of a pair's two bodies
 
 }  // namespace gjkdbg

@@ -38,7 +38,7 @@ struct GjkOptions {
   int max_iterations = 512;
   Vector<D, S> direction = Vector<D, S>::Unit(0);  ///< first search direction, not zero
   bool accelerated = false;  ///< directions other than -v, until they no longer help
-  bool normalised = false;   ///< for polytopes: of the momentum; Newton's method has no use there
+  bool normalised = false;   ///< both bodies are polytopes: momentum is of unit vectors (Montaut et al. 2024), and Newton's directions are not tried
   Acceleration acceleration = Acceleration::nesterov;
   Stopping stopping = Stopping::bounds;
   std::span<const SupportPoint<D, S>> kept{};  ///< the simplex to begin with instead of the direction's support; at most D + 1
@@ -48,7 +48,7 @@ template <int D, class S>
 struct GjkResult {
   GjkStatus status = GjkStatus::converged;
   int iterations = 0;
-  Simplex<D, S> simplex;                   ///< the feature nearest the origin; its weights are valid unless enclosed
+  Simplex<D, S> simplex;                   ///< the feature nearest the origin; with weights; when enclosed all D + 1 vertices, with the origin's weights
   Vector<D, S> v = Vector<D, S>::Zero();   ///< closest point of the cores' difference (zero when enclosed)
   S distance = 0;                          ///< |v|
   S lower_bound = -std::numeric_limits<S>::infinity();  ///< of the signed distance of the cores

@@ -14,14 +14,15 @@ namespace gjkdbg {
 
 /// In the plane and on the line the missing coordinates are 0, and only the turn about z exists.
 struct RigidBody {
-  Eigen::Vector3d x{0, 0, 0}, v{0, 0, 0}, l{0, 0, 0};  ///< centre of mass, its velocity, angular momentum
-  Eigen::Matrix3d r = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d x{0, 0, 0}, v{0, 0, 0}, l{0, 0, 0};  ///< world: centre of mass, its velocity, angular momentum about it
+  Eigen::Matrix3d r = Eigen::Matrix3d::Identity();     ///< rotation from body to world
   Eigen::Vector3d center{0, 0, 0};                                                       ///< of mass, in the body's frame
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero(), inverse = Eigen::Matrix3d::Zero();  ///< in the body's frame
-  double mass = 1, inverse_mass = 1, reach = 0;
-  bool turns = false;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero(), inverse = Eigen::Matrix3d::Zero();  ///< body axes, about the centre of mass; inverse: 0 across axes without extent
+  double mass = 1, inverse_mass = 1, reach = 0;  ///< inverse 0: static; no point is farther than `reach` from x
+  bool turns = false;                            ///< whether l and inverse count: neither static nor in 1D, and of some extent
 
   Eigen::Matrix3d world_inverse() const { return r * inverse * r.transpose(); }
+  /// Angular velocity, radians per unit of time, world.
   Eigen::Vector3d w() const { return turns ? Eigen::Vector3d(world_inverse() * l) : Eigen::Vector3d(0, 0, 0); }
   Eigen::Vector3d velocity_at(const Eigen::Vector3d& point) const { return v + w().cross(point - x); }
   void push(const Eigen::Vector3d& impulse, const Eigen::Vector3d& point) {

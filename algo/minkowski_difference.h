@@ -72,7 +72,8 @@ RelativePose<D, S> relative_pose(const PlacedAxes<D>& pose_a, const Vector<D, do
   return relative;
 }
 
-/// A and B are anything with support(direction), extent(), radius() and polytope(), Convex among them.
+/// A and B are anything with support(direction), reference(), center(), extent(), radius() and polytope(), and for Newton's directions
+/// add_support_derivative(…): Convex among them. SAT and projections look for core(), too.
 template <int D_, class S_, class A, class B = A>
 class MinkowskiDifference {
  public:

@@ -9,15 +9,16 @@
 namespace gjkdbg {
 
 /// A static query on two bodies within a longer trace: vertex and face numbers go on from `numbers`. `trace` may be null.
-/// With Start::previous GJK begins with `simplex` (or, when null, `initial_simplex`) and leaves its last one there; not where a mesh is one of the bodies.
+/// With Start::previous GJK begins with `simplex` (or, when null, with the settings' `initial_simplex`) and leaves its last one there; where a mesh is one of the
+/// bodies it does neither.
 Result solve_static(const Scene& scene, const Settings& settings, TraceSink* trace, TraceNumbers& numbers, std::vector<SimplexPoint>* simplex = nullptr);
 
-/// The rotation by an angular velocity over a time: exp(w t), after Rodrigues. 1D: the identity.
+/// The rotation by an angular velocity (radians per unit of time, world axes) over a time: exp(w t), after Rodrigues. 1D: the identity.
 AnyMatrix rotation_by(const AnyVector& angular_velocity, double time, int dimension);
 
 /// The unit quaternion w x y z of a rotation; in the plane about z.
 std::vector<double> orientation_of(const AnyMatrix& rotation);
-/// An angular velocity as states tell it.
+/// An angular velocity as BodyState and FinalState tell it: degrees per unit of time.
 std::vector<double> in_degrees(const AnyVector& radians);
 
 /// The body moved on by its velocities for a time, turning about its pose's position. A body without motion stays.
@@ -28,14 +29,14 @@ std::vector<Shape> convex_parts(const Shape& shape);
 /// One of a mesh's, with its margin.
 Shape triangle_of(const Shape& mesh, std::size_t number);
 
-/// How far the body reaches from its pose's position.
+/// A length of the scene: no point of the body, its radius or margin included, is farther from its pose's position.
 double reach_of(const Shape& shape, int dimension);
 
 /// How far a turning body comes forward along a unit vector at most in a time t: speed t + change t^2 / 2.
 struct TurningBound {
   double speed = 0, change = 0;
-  /// The mean speed at most until a gap d > 0 closes. It is open until t = 2 d / (s + sqrt(s^2 + 2 k d)), and shorter gaps close no slower, as t is
-  /// concave in d. With s < 0 the other form of the root cancels nothing.
+  /// The mean speed at most until a gap d > 0 closes. It is open until t = 2 d / (s + sqrt(s^2 + 2 k d)). No shorter gap d' closes at a higher mean speed: t is
+  /// concave in d and not negative at 0, so t(d') / d' >= t(d) / d. With s < 0 the other form of the root cancels nothing.
   double until_closed(double gap) const {
     const double root = std::sqrt(speed * speed + 2 * change * gap);
     return speed >= 0 ? (speed + root) / 2 : gap * change / (root - speed);

@@ -16,7 +16,7 @@ struct CastBegan {
 };
 
 /// At `time` the pair is `distance` apart along `normal`, and its bodies come nearer by at most `bound` per unit of time: until
-/// time + distance / bound they cannot meet.
+/// time + distance / bound they cannot meet. World frame; the time is of the whole cast, 0 to 1. Of a ray cast `distance` is that of the plane just found.
 template <class V, class Store>
 struct CastAdvanced {
   static constexpr std::string_view kind = "cast_advanced";
@@ -32,7 +32,7 @@ struct CastAdvanced {
   }
 };
 
-/// `pair` holds the two bodies that meet, or nothing.
+/// `pair` holds the two bodies that meet, of a ray cast at its limit those it stopped at, else nothing.
 template <class V, class Store>
 struct CastEnded {
   static constexpr std::string_view kind = "cast_ended";
@@ -46,7 +46,7 @@ struct CastEnded {
   }
 };
 
-/// Where a body is and how it moves. `orientation`: quaternion w x y z (in the plane about z). `angular_velocity`: degrees a unit of time, 3 numbers
+/// Where a body is and how it moves; `velocity` is that of its pose's position. `orientation`: quaternion w x y z (in the plane about z). `angular_velocity`: degrees a unit of time, 3 numbers
 /// (in the plane one, on a line none).
 template <class V, class Store>
 struct BodyState {

@@ -39,9 +39,9 @@ struct MprResult {
   int iterations = 0;
   Vector<D, S> normal = Vector<D, S>::Zero();  ///< unit, from body 0 towards body 1
   S depth = 0;                                 ///< of the bodies along `normal`; negative when separated
-  S lower_bound = 0, upper_bound = 0;          ///< of the bodies' depth, valid unless separated
+  S lower_bound = 0, upper_bound = 0;          ///< of the bodies' depth; valid when `decided`, unless separated or flat
   Vector<D, S> point_a = Vector<D, S>::Zero(), point_b = Vector<D, S>::Zero();  ///< where the ray leaves the portal
-  Vector<D, S> way_a = Vector<D, S>::Zero(), way_b = Vector<D, S>::Zero();  ///< of the depth: points of the portal with a - b nearest to depth * normal …
+  Vector<D, S> way_a = Vector<D, S>::Zero(), way_b = Vector<D, S>::Zero();  ///< valid as the bounds are, with MprOptions::depth: points of the portal with a - b nearest to depth * normal …
   S off = 0;                                                                ///< … and how far it is from it: 0 where they lie on the way out
   bool decided = true;                         ///< false: no plane that separates, and no portal with the origin on its inner side
   bool overlapping() const { return status != MprStatus::separated; }  ///< if decided

@@ -33,14 +33,14 @@ struct PolytopeFace {
   std::array<int, D> vertices;     ///< indices into points(); counter-clockwise seen from outside
   std::array<int, D> neighbours;   ///< 3D: across edge (vertices[i], vertices[i+1]), as 4 times the face and its edge; 2D: before, after; 1D: the side, -1 or 1
   Vector<D, S> normal;             ///< unit, outwards; zero for a face without area
-  S distance;                      ///< of the plane from the origin, negative: the origin is outside
+  S distance;                      ///< of the plane from the origin, negative: the origin is outside; infinite for a face without area
   std::uint32_t place;             ///< among those that Polytope::nearest looks at
   bool removed = false;
   PolytopeFace() {}                // leaves the numbers unset: they are written next
 };
 
 /// What one growth did. The new faces are one after the other around the hole: in 3D face i lies between the edge vertices[0], vertices[1] of the
-/// horizon and the new point, in 2D the first leads to it and the second from it.
+/// horizon and the new point, in 2D the first leads to it and the second from it. Valid until the next growth.
 struct Growth {
   std::span<const int> removed;
   int first_added = 0, added = 0;  ///< new faces: the first one's number, how many
@@ -73,7 +73,7 @@ class Polytope {
   void start(std::array<int, D + 1> simplex);
 
   /// The face with the smallest signed distance. One look at all there are: they are few, and which of them is nearer is nothing a processor can
-  /// guess, as it would have to in a heap.
+  /// guess, as it would have to in a heap. -1 when no face is left.
   int nearest();
 
   /// Grows by point p, which must lie outside `seen`. False, and no face has changed, when no hull with one horizon comes of it.

@@ -14,7 +14,8 @@ namespace gjkdbg {
 class PreparedPair {
  public:
   virtual ~PreparedPair() = default;
-  /// `settings` must ask for the scalar the pair was made in. Query: intersect, distance or penetration.
+  /// `settings`: from `resolve_settings` for these bodies, of the scalar the pair was made in (std::bad_optional_access for a closed form or SAT on other
+  /// shapes). Query: intersect, distance or penetration; others are answered as penetration. The result is in world coordinates and scene lengths.
   /// With Start::previous every run begins with the simplex of the one before, the first with `initial_simplex`.
   virtual Result run(const Settings& settings, Query query) = 0;
   /// The simplex of the last run with Start::previous; empty when there was none.

@@ -45,7 +45,7 @@ class Projections {
   Projections(Difference& difference, S tolerance, int max_iterations, Trace& trace)
       : difference_(difference), trace_(trace), tolerance_(tolerance), most_rounds_(std::min(max_iterations, 24)), floor_(difference.rounding_floor()), reach_(static_cast<S>(difference.a().extent() + difference.b().extent())) {}
 
-  /// `enough`: the distance that need only be told from less, or infinite where it is wanted itself.
+  /// `enough`: for a yes or no the sum of the radii: only whether the cores are farther apart is decided. Infinite where the distance itself is wanted.
   ProjectionsResult<D, S> run(S enough) {
     x_ = difference_.a().center();
     trace_(ProjectionsBegan<V, Viewed>{x_});

@@ -11,7 +11,8 @@
 
 namespace gjkdbg {
 
-/// A body at the end of a cast or a simulation; units as in BodyState of algo/motion_events.h.
+/// A body at the end of a cast or a simulation: the orientation a quaternion w x y z, the velocity that of its pose's position, the angular velocity in degrees
+/// per unit of time (3 numbers, in the plane 1, on a line none), as in BodyState of algo/motion_events.h.
 struct FinalState {
   AnyVector position;
   std::vector<double> orientation;
@@ -28,14 +29,14 @@ struct ContactPoint {
 /// `witness_b - witness_a = signed_distance * normal`; the bounds enclose `signed_distance` (of a `distance`
 /// query: max(0, signed distance)).
 struct Result {
-  bool intersecting = false;
+  bool intersecting = false;  ///< of a cast: they meet; of a simulation: whether its last step has contacts; means nothing where `unanswered`
   std::optional<double> signed_distance;
   std::optional<AnyVector> normal;  ///< unit, from body 0 towards body 1
   std::optional<AnyVector> witness_a, witness_b;
   std::optional<double> lower_bound, upper_bound;
   std::optional<std::vector<ContactPoint>> contacts;
   // Of a cast: the bodies are surely apart until `time` and surely touch at `touching_at` (unset when they graze by less than can be told);
-  // normal and witnesses are those at `time`. Of a simulation: the time reached.
+  // normal and witnesses are those at `time`, of bodies that meet. Of a simulation: the time reached.
   std::optional<double> time, touching_at;
   std::optional<std::array<int, 2>> pair;           ///< the bodies that meet
   std::optional<std::vector<FinalState>> bodies;    ///< after responses, or at the end of a simulation

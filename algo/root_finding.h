@@ -20,10 +20,10 @@ namespace gjkdbg {
 
 class RootFinding {
  public:
-  /// The bodies at the beginning of the motion, each with one; `time`: where they are now. A gap of `target` or less is closed. No more than `left` is looked ahead.
+  /// The bodies as at the beginning of the motion, `motion` set; `time`: from there to now. Gaps of `target` or less count as closed. Looks at most `left` ahead.
   RootFinding(Body a, Body b, double reach_a, double reach_b, int dimension, double time, double target, double left);
 
-  /// How long from now the gap stays open along its normal. `closing` as in Gap.
+  /// How long from now the gap stays open along gap.normal; gap.closing must be positive.
   double staying(const Gap& gap);
   /// The same along one that turns on from `last_normal`, `since` before.
   double turning(const Gap& gap, const AnyVector& last_normal, double since);

@@ -27,8 +27,8 @@ template <int D, class S>
 struct SatResult {
   SatStatus status = SatStatus::overlapping;  ///< of the cores
   int iterations = 0;                         ///< axes tested
-  Vector<D, S> normal = Vector<D, S>::Zero();  ///< unit, from body 0 towards body 1: where h is least
-  S depth = 0;                                ///< h there: of the cores, negative when separated
+  Vector<D, S> normal = Vector<D, S>::Zero();  ///< unit, from body 0 towards body 1, body 0's frame: where h is least, or once nearest points are proven from a to b
+  S depth = 0;                                ///< of the cores: h along `normal`, or minus the proven distance; negative when separated
 };
 
 /// Points of the cores with a - b = depth * normal.

@@ -71,15 +71,16 @@ class SinkTaking<Self, Base, EventList<Event, Rest...>> : public SinkTaking<Self
   void operator()(const Event& event) override { static_cast<Self*>(this)->take(event); }
 };
 
-/// Fills in the defaults for a scene. Throws Error (place: pointer relative to the method, "/name", …) for values out of
-/// range and for combinations that do not exist.
+/// Fills in the defaults for a scene. Throws Error (place: a JSON pointer into the scene, "/method/name", "/bodies", "/query", …) for values out of range, for
+/// combinations that do not exist and for scenes that the method does not take.
 Settings resolve_settings(const Method& method, const Scene& scene);
 
-/// How far a computed support plane of the scene may be off, in the settings' precision (algo/minkowski_difference.h). Of a mesh: its first triangle's.
+/// In scene lengths: how far a computed support plane of the scene's first two bodies may be off, in the settings' precision (algo/minkowski_difference.h). Of a mesh: its first triangle's.
 double rounding_floor(const Scene& scene, const Settings& settings);
 
 /// Solves the scene's query: of two bodies, of two or more for a cast, of one or more for a simulation. Their shapes must pass `validate` (shapes/shape.h), or come
 /// from the reader of recordings/.
+/// `settings`: from `resolve_settings` for this scene, which refuses what solve cannot do. The sink is called on this thread.
 /// Deterministic; with and without a sink the result is the same bit for bit.
 Result solve(const Scene& scene, const Settings& settings);
 Result solve(const Scene& scene, const Settings& settings, TraceSink& trace);

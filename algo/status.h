@@ -42,18 +42,18 @@ enum class MprStatus {
 inline constexpr std::array<std::string_view, 6> mpr_status_names{"converged", "overlapping", "separated", "flat", "stalled", "iteration_limit"};
 
 enum class CastStatus {
-  hit,                    ///< they meet; `time` is before that, by no more than the tolerance
+  hit,                    ///< they meet; at `time` they are still apart, by no more than the tolerance times the scene's size, or as near as rounding lets it come
   miss,                   ///< they do not meet in the interval
   initially_overlapping,  ///< they overlap at the beginning
-  at_rest,                ///< after responses: nothing moves any more
+  at_rest,                ///< after responses: nothing moves any more (of the event cast_ended; a result has the status of the first meeting)
   iteration_limit,        ///< apart until `time`; no more is known
 };
 inline constexpr std::array<std::string_view, 5> cast_status_names{"hit", "miss", "initially_overlapping", "at_rest", "iteration_limit"};
 
 enum class SatStatus {
   overlapping,  ///< no axis separates; the least overlap is the depth
-  separated,    ///< the last axis separates
-  undecided,    ///< the least overlap or the widest gap is within rounding: where the difference is sharp, bodies well apart have no wider one
+  separated,    ///< some axis does, by more than rounding; `normal` is the widest one known, or leads from one nearest point to the other
+  undecided,    ///< the least overlap or the widest gap is within rounding: touching, or, where the difference is sharp, well apart; GJK decides
 };
 inline constexpr std::array<std::string_view, 3> sat_status_names{"overlapping", "separated", "undecided"};
 

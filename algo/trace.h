@@ -4,7 +4,8 @@
 // only. A sink is anything callable with every event; nothing flows back. `NoTrace` compiles to nothing.
 // Each event declares its fields once, by name and member; the JSON codec, the schema test, the inspector and
 // the tests' event log all walk that declaration. Events are templates over the vector type and the list type:
-//   algorithm   Vector<D, S> in the frame of body 0, Viewed
+//   algorithm   Vector<D, S> in the working frame,   Viewed   (body 0's axes from its core's reference point; of the
+//               closed form the world's axes from body 0's position; lengths times `scale`)
 //   solve()     AnyVector in the world's frame,      Viewed   (what a sink sees)
 //   recording   AnyVector in the world's frame,      Owned
 #pragma once
@@ -108,6 +109,7 @@ struct GjkEnded {
   }
 };
 
+/// What EPA begins with: its vertices and all faces. Distances are of the cores' difference.
 template <class V, class Store>
 struct PolytopeSeeded {
   static constexpr std::string_view kind = "polytope_seeded";
@@ -118,6 +120,7 @@ struct PolytopeSeeded {
   }
 };
 
+/// The face nearest the origin, whose normal (unit, outwards) is asked along next. `distance`: of its plane from the origin, signed, of the cores' difference.
 template <class V, class Store>
 struct FaceChosen {
   static constexpr std::string_view kind = "face_chosen";
@@ -221,7 +224,8 @@ struct SatBegan {
 };
 
 /// Along the unit axis `direction` (from body 0 towards body 1) the bodies are `distance` apart; negative: they overlap by
-/// that much. `vertex` is the support that says so. The bounds are of the bodies' signed distance after this axis.
+/// that much. `vertex` is the support that says so. `lower_bound` is of the bodies' signed distance, by the widest axis so far; `upper_bound` is NaN
+/// (null in a file): axes give none.
 template <class V, class Store>
 struct AxisTested {
   static constexpr std::string_view kind = "axis_tested";
@@ -279,8 +283,8 @@ struct ClosedFormBegan {
   }
 };
 
-/// Where the lines through the segments are nearest to each other (a point to a line), in or out of range. Null where one core is a point,
-/// or the lines are parallel.
+/// Where the lines through the segments are nearest to each other (a point to a line), in or out of range. A parameter is NaN (null in a file)
+/// where its own core is a point; both are where the lines are parallel.
 template <class V, class Store>
 struct LinesSolved {
   static constexpr std::string_view kind = "lines_solved";
@@ -334,6 +338,7 @@ struct ProjectionsEnded {
   }
 };
 
+/// `code`: a short word that programs can rely on; `message`: for people.
 template <class V, class Store>
 struct Warning {
   static constexpr std::string_view kind = "warning";

@@ -18,7 +18,7 @@ struct WideVector {
   explicit WideVector(const Vector<D, S>& v) {
     for (int i = 0; i < D; ++i) c[i] = Wide<S>(v[i]);
   }
-  /// a - b exactly.
+  /// a - b: exact in double, to a rounding of double in float.
   template <int D>
   static WideVector difference(const Vector<D, S>& a, const Vector<D, S>& b) {
     WideVector r;

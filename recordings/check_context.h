@@ -52,7 +52,8 @@ class CheckContext {
   double height(const AnyVector& direction) const;
   /// The same over the bodies, radii included.
   double body_height(const AnyVector& direction) const;
-  /// Negative: how deep. Of meshes the triangles that are nearest to each other count, and of several the ones farthest apart so.
+  /// The widest gap of the bodies along the direction; negative: how far they overlap along it. Of meshes that of the nearest pair of triangles, and of several as
+  /// near that of the one farthest apart along the direction.
   double apart_along(const AnyVector& direction);
 
   /// How far a point is from being a support of a body along a unit direction, or of its core: short of it, or beside the body.
@@ -63,6 +64,7 @@ class CheckContext {
   /// How far a claimed distance or depth may be from it.
   double answer_tolerance();
 
+  /// Adds a finding at this step.
   void find(const char* code, const std::string& message, Finding::Severity severity = Finding::Severity::error);
   /// What is harmless by itself, but the likely cause where an answer is wrong later on. The first counts; where the claim of an overlap is wrong, only one of
   /// the simplex that it is made of.

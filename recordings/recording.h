@@ -127,7 +127,7 @@ std::string recording_to_text(const Recording& recording);
 
 /// Throws Error (place: JSON pointer or line) for anything that is not a whole recording: event fields missing, unknown or
 /// mistyped, vectors of the wrong dimension, … Never crashes. What the events *say* is not judged: a recording of a wrong
-/// solver, with vertices that nobody asked for, is still a recording. A direction may hold nulls, read as NaN.
+/// solver, with vertices that nobody asked for, is still a recording. A direction and a closest point may hold nulls, bounds may be null: read as NaN.
 Recording parse_recording(std::string_view text, const std::filesystem::path& directory);
 Recording read_recording(const std::filesystem::path& file);
 

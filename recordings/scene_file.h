@@ -22,7 +22,7 @@ struct Expectation {
   std::optional<double> signed_distance;
   std::optional<AnyVector> normal;
   std::optional<double> time;  ///< of a cast
-  double tolerance = 1e-9;  ///< absolute, on the signed distance and on every component of the normal
+  double tolerance = 1e-9;  ///< absolute: on the signed distance, on `time` and on every component of the normal
 };
 
 struct SceneFile {

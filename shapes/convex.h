@@ -39,7 +39,7 @@ class Convex {
   using Core = typename CoreVariant<D, S>::type;
 
   /// `shape` must be valid in dimension D (`validate`) and no mesh. Lengths are multiplied by `scale`, which
-  /// must be a power of two. A hull is reduced to its extreme vertices, if it is solid.
+  /// must be a power of two. A hull, in 2D a polygon, is reduced to its extreme vertices, if it is solid.
   explicit Convex(const Shape& shape, double scale = 1);
 
   /// A point of the core farthest along `direction`; both relative to `reference()`, axes of the body.
@@ -59,9 +59,9 @@ class Convex {
     return std::visit([](const auto& core) { return core.center(); }, core_);
   }
   const Core& core() const { return core_; }
-  const Vector<D, double>& reference() const { return reference_; }  ///< of the core, in the body's frame
-  double radius() const { return radius_; }                          ///< of the ball around the core
-  double extent() const { return extent_; }      ///< largest distance of a core point from `reference()`
+  const Vector<D, double>& reference() const { return reference_; }  ///< of the core: in the body's axes from its origin, times `scale`
+  double radius() const { return radius_; }                          ///< of the ball around the core, times `scale`
+  double extent() const { return extent_; }      ///< times `scale`: no core point is farther from `reference()`, and but for sums one is as far
   bool polytope() const { return polytope_; }    ///< whether the core has finitely many extreme points
 
  private:

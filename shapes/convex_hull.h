@@ -27,7 +27,8 @@ struct ConvexHull {
 };
 
 /// `points`: at least one, finite, all of `dimension` 1, 2 or 3 rows. Never loses an extreme point by more than
-/// rounding: where Qhull gives up (a set thinner than it can judge), all distinct points are kept.
+/// rounding: where Qhull gives up (a set thinner than it can judge), all distinct points are kept, and `faces` and `edges`
+/// may be empty. (Its hull is checked up to 1e7 pairs of a face and a point; beyond, it is believed.)
 ConvexHull convex_hull(std::span<const AnyVector> points, int dimension);
 
 }  // namespace gjkdbg

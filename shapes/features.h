@@ -10,7 +10,7 @@ namespace gjkdbg {
 
 struct EdgeFeature {
   AnyVector direction;    ///< unit
-  AnyVector left, right;  ///< outward normals of the two faces it joins; of no size when the polytope is no solid
+  AnyVector left, right;  ///< outward unit normals of the two faces it joins; empty (size() 0) when the polytope is no solid
 };
 
 /// In the axes of the body. A flat polytope in space has two faces, a segment none.
@@ -23,7 +23,7 @@ struct Features {
 /// Nothing for what is not a polytope with a radius around it (corners_of).
 std::optional<Features> features_of(const Shape& shape, int dimension);
 
-/// The same, found when first asked for.
+/// The same, found when first asked for: `get` throws std::bad_optional_access where there is nothing.
 class LateFeatures {
  public:
   LateFeatures(const Shape& shape, int dimension) : shape_(shape), dimension_(dimension) {}

@@ -48,19 +48,20 @@ Pose identity_pose(int dimension);
 
 struct ResolvedRotation {
   AnyMatrix matrix;
-  double correction = 0;  ///< largest change of an element that orthonormalising made (0 when exact)
+  double correction = 0;  ///< largest change of a matrix element by orthonormalising; of a quaternion, by how much its length was not 1; 0 when exact to rounding
 };
 
 /// Any notation to a matrix. Exact for no rotation and for multiples of a quarter turn; quaternions are divided
 /// by their length, matrices orthonormalised (Gram-Schmidt from the first column) unless they are so to rounding already.
 /// Throws Error("not-a-rotation", …) when a quaternion's length or a matrix' orthonormality is off by more than
-/// 1e-6, when the matrix is a reflection, the axis has no direction, or the notation is not one of the dimension.
+/// 1e-6, when the matrix is a reflection, the axis has no direction, or the notation is not one of the dimension; Error("non-finite", …) for NaN and infinity.
 ResolvedRotation resolve(const Rotation& rotation, int dimension);
 
 /// Inverse conversions (3D): all describe the same rotation as `matrix` (orthonormal, 3x3).
 Quaternion to_quaternion(const AnyMatrix& matrix);  ///< w >= 0
 AxisAngle to_axis_angle(const AnyMatrix& matrix);   ///< angle in [0, pi], unit axis (x for the identity)
-/// Angles in (-pi, pi], the middle one in [0, pi] or [-pi/2, pi/2]; at gimbal lock the third angle is 0.
+/// Radians in [-pi, pi], the middle one in [0, pi] or [-pi/2, pi/2]; at gimbal lock the third angle is 0 (extrinsic: the first). Throws Error("not-a-rotation", …)
+/// when `order` is none.
 Euler to_euler(const AnyMatrix& matrix, const std::string& order, bool intrinsic);
 PlaneAngle to_plane_angle(const AnyMatrix& matrix);  ///< 2D
 

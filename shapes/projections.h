@@ -90,7 +90,7 @@ void on_disc(int i, int j, Projection<3, S>& out) {
   out.k00 = out.k11 = 1, out.flat = 2;
 }
 
-/// At a distance of rho from the axis, seen from p, which is farther out by the factor `one_over_sigma` gives.
+/// The point at distance rho from the axis, on p's side; `one_over_sigma`: 1 / p's own distance from the axis, 0 on it. The second tangent leads round.
 template <class S>
 void on_rim(int i, int j, const Vector<3, S>& p, S rho, S one_over_sigma, Projection<3, S>& out) {
   const S ci = p[i] * one_over_sigma, cj = p[j] * one_over_sigma;
@@ -154,6 +154,7 @@ void project(const EllipsoidCore<D, S>& core, const Vector<D, S>& p, ProjectionS
   }
   if (!(scaled > 1)) return held_point(p, out);
   S& t = start.t;
+  // Where to begin: of a ball of radius r it is t = r (|p| - r) = r^2 (|p| / r - 1), and r^2 = |p|^2 / q with q = sum (p_i / r_i)^2.
   if (!(t > 0)) t = length * (std::sqrt(scaled) - 1) / scaled;
   S f = 0, slope = 0;  // -f' / 2
   const auto evaluate = [&] {

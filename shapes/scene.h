@@ -37,6 +37,7 @@ enum class Integrator {
 inline constexpr std::array<std::string_view, 3> integrator_names{"explicit-euler", "semi-implicit-euler", "rk4"};
 
 /// How a body moves; only in the scenes of `cast` and `simulate`. World axes; the body turns about its pose's position.
+/// A cast reads the velocities, and for Response::bounce the restitution.
 struct Motion {
   AnyVector velocity;          ///< per unit of time (of a cast: the whole interval)
   AnyVector angular_velocity;  ///< radians per unit of time: 3 numbers in 3D, 1 in 2D, none in 1D
@@ -55,10 +56,10 @@ struct Body {
 
 /// What the scenes of `cast` and `simulate` add to the scene itself.
 struct SceneMotion {
-  Response response = Response::stop;
-  AnyVector gravity;
+  Response response = Response::stop;  ///< of a cast
+  AnyVector gravity;                   ///< this and the rest of a simulation: length per time squared, world axes
   double time_step = 1.0 / 60;
-  int steps = 60;
+  int steps = 60;                      ///< how many time steps
   Integrator integrator = Integrator::semi_implicit_euler;
 };
 

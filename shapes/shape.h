@@ -81,8 +81,9 @@ struct Shape {
 };
 
 /// Throws Error (place: a JSON pointer relative to the shape) when the shape is not a valid set of the given
-/// dimension: non-finite numbers, negative sizes, magnitudes above `largest_length`, a point set without
-/// points or with the wrong number of them, a type that does not exist in this dimension.
+/// dimension: non-finite numbers, negative sizes or margins, magnitudes above `largest_length`, a box's min above its max, a point set without
+/// points or with the wrong number of them, a mesh without triangles or with a wrong index, a sum that lacks a part or has a mesh for one, an axis or a
+/// type that does not exist in this dimension.
 void validate(const Shape& shape, int dimension);
 
 /// Lengths beyond this are refused: products of four lengths must stay finite in double.

@@ -6,7 +6,9 @@
 #include <fstream>
 #include <utility>
 
+#include "debugger/lab/atlas.h"
 #include "debugger/view/explain.h"
+#include "debugger/view/measurements.h"
 #include "tests/support/window_fixture.h"
 
 namespace gjkdbg {
@@ -158,6 +160,13 @@ TEST_F(OpenRun, ADecimalCommaIsAPoint) {
   const ImGuiInputTextState& field = ImGui::GetCurrentContext()->InputTextState;
   ASSERT_EQ(field.CurLenW, 2);
   EXPECT_EQ(field.TextW[1], '.');
+}
+
+TEST(Measurements, KnowTheAtlassVerdicts) {
+  for (std::size_t i = 0; i < verdict_names.size(); ++i) {
+    EXPECT_STREQ(atlas_verdicts[i], verdict_names[i]);
+    EXPECT_STREQ(atlas_verdict_marks[i], verdict_marks[i]);
+  }
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ struct ChartPanel {
 struct PricePoint {
   std::string what;
   double nanoseconds = 0, worst_error = 0, supports = 0;  ///< error against what was meant: the sphere, the rectangle
-  bool error_known = false;                               ///< of a query that asks for the distance and the depth
+  bool error_known = false;                               ///< whether worst_error means anything: the query asks for distance and depth
 };
 
 /// GJK's steps by distance, as in Montaut et al. 2024, table III a, and its time on hulls, as in Montaut et al. 2022, table I.

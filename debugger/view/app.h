@@ -142,13 +142,13 @@ void section(const Theme& theme, const char* title);
 std::string shortened(const ImFont* font, const std::string& text, float room);
 /// Broken between words only: never within a number.
 void wrapped(const std::string& text, Colour colour);
-/// A label on the left and a number in the monospaced font, right-aligned, below where there is no room beside. With a source, the step that produced the number, a click goes there.
+/// A label on the left and a number in the monospaced font, right-aligned, below where there is no room beside.
 void number_row(const Theme& theme, const char* label, const std::string& value, Colour colour);
-/// `exact`: with all digits, for the tooltip and a right click, which copies it.
+/// A click goes to `source`, the step that produced the number. `exact`: with all digits, for the tooltip and a right click, which copies it.
 void number_row(App& app, const char* label, const std::string& value, Colour colour, std::optional<std::size_t> source, const std::string& exact = {});
-/// With all digits, and as they are shown.
 /// With blanks behind it, so that numbers that end in one column have their points in one column; small ones with fewer digits.
 std::string at_the_point(double value);
+/// Numbers as they are shown, with all digits as `exact`.
 void number_row(App& app, const char* label, double value, Colour colour, std::optional<std::size_t> source = {});
 void number_row(App& app, const char* label, const AnyVector& value, Colour colour, std::optional<std::size_t> source = {}, int digits = 4);
 std::string all_digits(double x);

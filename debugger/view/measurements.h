@@ -55,8 +55,7 @@ struct MeasuredChart {
   std::vector<MeasuredMotion> motion;
 };
 
-/// How serious, in the order of the atlas's verdicts; the last two: crashed, not applicable.
-/// As in debugger/lab/atlas.h, whose numbers they are.
+/// In the order of debugger/lab/atlas.h, whose numbers and words they are: the window reads files and knows no lab. A test holds them together.
 inline constexpr std::array<const char*, 9> atlas_verdict_marks{"", "\xE2\x89\x88", "?", "\xE2\x89\xA0", "!", "\xC2\xB1", "\xE2\x88\x9E", "\xC3\x97", ""};
 inline constexpr std::array<const char*, 9> atlas_verdict_meanings{"the right answer", "the right answer, or one that the input's own rounding could make right", "a limit or a stall is admitted, and the answer is off", "the value is off, and the bounds admit it",
                                                                   "converged, it says, with bounds that exclude the truth", "apart is called overlapping, or overlapping apart", "the answer holds a number that is not finite", "crashed or never ended", "the method does not take such bodies"};
