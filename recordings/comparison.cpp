@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "recordings/json_reading.h"
 #include "recordings/json_writing.h"
@@ -45,12 +46,30 @@ std::vector<std::string> differing_fields(const Json& a, const Json& b, const Sa
   return names;
 }
 
+/// The largest difference of two numbers at the same place; NaN where whole numbers, words, or how many there are differ.
+double largest_difference(const Json& a, const Json& b) {
+  constexpr double other = std::numeric_limits<double>::quiet_NaN();
+  if (a == b) return 0;
+  if (a.is_number() && b.is_number() && (a.is_number_float() || b.is_number_float())) return std::abs(a.get<double>() - b.get<double>());
+  if (a.type() != b.type() || !a.is_structured() || a.size() != b.size()) return other;
+  double most = 0;
+  for (auto x = a.begin(), y = b.begin(); x != a.end(); ++x, ++y) {
+    const double here = largest_difference(*x, *y);
+    if (std::isnan(here) || (a.is_object() && x.key() != y.key())) return other;
+    most = std::max(most, here);
+  }
+  return most;
+}
+
 template <class Same>
 std::optional<Difference> first_not(const Same& same, const Recording& a, const Recording& b) {
   const auto difference = [&](std::size_t event, std::string what, std::string left, std::string right, bool comparable) -> std::optional<Difference> {
-    Difference d{event, std::move(what), {}, std::move(left), std::move(right)};
-    if (comparable) d.fields = differing_fields(Json::parse(d.left), Json::parse(d.right), same);
-    if (comparable && d.fields.empty()) return std::nullopt;
+    Difference d{event, std::move(what), {}, std::move(left), std::move(right), {}};
+    if (!comparable) return d;
+    const Json one = Json::parse(d.left), two = Json::parse(d.right);
+    d.fields = differing_fields(one, two, same);
+    if (d.fields.empty()) return std::nullopt;
+    for (const std::string& name : d.fields) d.by.push_back(one.contains(name) && two.contains(name) ? largest_difference(one[name], two[name]) : std::numeric_limits<double>::quiet_NaN());
     return d;
   };
   const std::size_t longer = std::max(a.events.size(), b.events.size());

@@ -15,6 +15,7 @@ struct Difference {
   std::string what;                 ///< "event 12", "result": for people
   std::vector<std::string> fields;  ///< which of its fields differ; empty when the kinds differ or one side has ended
   std::string left, right;          ///< both sides as JSON, empty where a side has ended
+  std::vector<double> by;           ///< of each of `fields` by how much its numbers differ at most; NaN where more than the size of numbers differs
 };
 
 /// Compares events, then results, bit for bit (the sign of zero counts). Scene, method and generator are not compared.

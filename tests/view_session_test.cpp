@@ -169,5 +169,13 @@ TEST(Measurements, KnowTheAtlassVerdicts) {
   }
 }
 
+TEST_F(OpenRun, IsGoneThroughByItsPlot) {
+  session.go_to(0);
+  host.frame();
+  host.click(830, 722);  // in the plot of the bounds
+  EXPECT_GT(session.step(), 0u);
+  EXPECT_LT(session.step() + 1, session.count());
+}
+
 }  // namespace
 }  // namespace gjkdbg

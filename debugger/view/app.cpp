@@ -287,9 +287,14 @@ void App::title_and_chips(const Area& area) {
   ImGui::SameLine(area.width - chips - theme.px(16));
   if (!alone) {
     chip(theme, method, theme.palette.accent);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("method: %s\nquery: %s", whole.c_str(), query_names[static_cast<std::size_t>(session.scene().scene.query)].data());
     ImGui::SameLine(0, theme.px(8));
   }
   chip(theme, result, tone);
+  if (!ImGui::IsItemHovered()) return;
+  const Result& r = session.recording().result;
+  const std::string bounds = r.lower_bound && r.upper_bound ? "\nbounds: " + all_digits(*r.lower_bound) + " to " + all_digits(*r.upper_bound) : "";
+  ImGui::SetTooltip("%s\nstatus: %s%s", result.c_str(), r.status.c_str(), bounds.c_str());
 }
 
 void App::left_panel(const Area& area) {

@@ -52,6 +52,26 @@ ImVec2 plot_frame(const Theme& theme, float width, float height, const char* tit
   return at;
 }
 
+/// The point nearest to the mouse, if that is over the plot: a ring around it, what it is, and a click goes to its step. Call right after the plot is drawn.
+struct Pointed {
+  ImVec2 mouse = ImGui::GetMousePos(), at{};
+  bool over = ImGui::IsItemHovered();
+  float nearest = std::numeric_limits<float>::infinity();
+  std::size_t step = 0;
+  std::string told;
+
+  void take(ImVec2 here, std::size_t of_step, const std::string& what) {
+    const float far = std::abs(here.x - mouse.x) + std::abs(here.y - mouse.y) / 8;  // above all along the axis of steps
+    if (far < nearest) nearest = far, at = here, step = of_step, told = what;
+  }
+  void show(App& app) const {
+    if (!over || told.empty()) return;
+    ImGui::GetWindowDrawList()->AddCircle(at, app.theme.px(5), packed(app.theme.palette.text), 16, app.theme.px(1.5f));
+    ImGui::SetTooltip("%s\nstep %zu: click to go there", told.c_str(), step);
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) app.session.playing = false, app.session.go_to(step);
+  }
+};
+
 /// One entry of a plot's key, on the line of its title; where the next one begins.
 float key_entry(const Theme& theme, float x, float y, const char* name, Colour colour, bool dashed) {
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -157,6 +177,10 @@ void bounds_plot(App& app, float width, float height) {
   curve(others, true);
   curve(samples, false);
   draw->AddLine({x_of(s.step()), from.y}, {x_of(s.step()), to.y}, packed(p.text.with_alpha(0.6)), 1);
+  if (Pointed pointed; pointed.over) {
+    for (const Sample& x : samples) pointed.take({x_of(x.step), y_of(std::log10(x.gap))}, x.step, "the bounds are " + short_number(x.gap) + " apart");
+    pointed.show(app);
+  }
 }
 
 /// A moving scene: over time, the distance of the pair looked at (cast), or the energy (simulate).
@@ -174,11 +198,13 @@ void motion_plot(App& app, float width, float height) {
   struct Point {
     double time, value;
     int series;
+    std::size_t step;
   };
   std::vector<Point> points;
-  for (const Event& event : s.recording().events) {
-    if (const auto* e = std::get_if<recorded::CastAdvanced>(&event); e && cast) points.push_back({e->time, e->distance, e->pair[0] * 1000 + e->pair[1]});
-    if (const auto* e = std::get_if<recorded::State>(&event); e && !cast) points.push_back({e->time, e->energy, 0});
+  for (std::size_t i = 0; i < s.count(); ++i) {
+    const Event& event = s.recording().events[i];
+    if (const auto* e = std::get_if<recorded::CastAdvanced>(&event); e && cast) points.push_back({e->time, e->distance, e->pair[0] * 1000 + e->pair[1], i});
+    if (const auto* e = std::get_if<recorded::State>(&event); e && !cast) points.push_back({e->time, e->energy, 0, i});
   }
   if (points.empty()) return;
   double low = cast ? 0 : points[0].value, high = points[0].value, first = cast ? 0 : points[0].time, last = cast ? 1 : points[0].time;
@@ -192,7 +218,7 @@ void motion_plot(App& app, float width, float height) {
     return ImVec2{from.x + static_cast<float>((x.time - first) / std::max(last - first, 1e-300)) * (to.x - from.x), to.y - static_cast<float>((x.value - low) / (high - low)) * (to.y - from.y)};
   };
   for (const double value : {low, high}) {
-    const float y = place({first, value, 0}).y;
+    const float y = place({first, value, 0, 0}).y;
     draw->AddLine({from.x, y}, {to.x, y}, packed(p.field), 1);
     draw->AddText(theme.small, theme.small->FontSize * 0.85f, {at.x + theme.px(8), y - theme.px(6)}, packed(p.text_faint), short_number(value).c_str());
   }
@@ -208,9 +234,14 @@ void motion_plot(App& app, float width, float height) {
     before[x.series] = here;
   }
   if (!cast) momentum_curve(app, from, to, first, last);
-  if (!s.frame().time) return;
-  const float x = place({*s.frame().time, low, 0}).x;
-  draw->AddLine({x, from.y}, {x, to.y}, packed(p.text.with_alpha(0.6)), 1);
+  if (s.frame().time) {
+    const float x = place({*s.frame().time, low, 0, 0}).x;
+    draw->AddLine({x, from.y}, {x, to.y}, packed(p.text.with_alpha(0.6)), 1);
+  }
+  if (Pointed pointed; pointed.over) {
+    for (const Point& x : points) pointed.take(place(x), x.step, "time " + short_number(x.time) + (cast ? ", distance " : ", energy ") + short_number(x.value));
+    pointed.show(app);
+  }
 }
 
 }  // namespace gjkdbg

@@ -192,7 +192,10 @@ std::string parting_text(const Session& session) {
   const auto& p = session.parting();
   if (!p) return "the same" + but + ", step by step";
   std::string fields;
-  for (const std::string& f : p->fields) fields += (fields.empty() ? ": " : ", ") + f;
+  for (std::size_t i = 0; i < p->fields.size(); ++i) {
+    fields += (i == 0 ? ": " : ", ") + p->fields[i];
+    if (!std::isnan(p->by[i])) fields += " by " + short_number(p->by[i]);  // 1e-16 is rounding, 0.1 another way
+  }
   if (p->event >= std::max(session.count(), session.other().events.size())) return "the same" + but + ", step by step; the results differ" + fields;
   return (session.step() < p->event ? "the same so far" + but + "; " : "") + "they part at step " + std::to_string(p->event) + fields;
 }

@@ -179,6 +179,8 @@ TEST(Comparison, NamesTheFirstDifference) {
   ASSERT_TRUE(difference);
   EXPECT_EQ(difference->event, 3u);
   EXPECT_EQ(difference->fields, std::vector<std::string>{"w"});
+  ASSERT_EQ(difference->by.size(), 1u);
+  EXPECT_NEAR(difference->by[0], 1e-15, 4e-16);
   EXPECT_EQ(verify(b)->event, 3u);
   b = a;
   b.events.pop_back();
