@@ -1,4 +1,4 @@
-// The separating axis test of two boxes: 15 axes in space, 4 in the plane, and no support mapping.
+// The separating axis test of two boxes in space: 15 axes, and no support mapping (on a line one axis; in the plane: algo/rectangle_sat.h).
 //
 // Gottschalk, Lin, Manocha, "OBBTree", SIGGRAPH 1996, section 5. A box is its own mirror image in its centre, so of n and -n the one that
 // leads towards the other box counts. With half sizes a, b, the axes of B as the columns of R, and p from centre to centre, the height of
@@ -19,7 +19,6 @@
 //
 // A query's branches are as random as its bodies. In space there are none where the least of the faces and the sides of corners are chosen: of pairs that are
 // asked of once 5 branches are mispredicted, not 10, and a sixth of the time is saved (pairs that come round and round, which a processor learns, lose 4 %).
-// In the plane what follows is a chain of few steps that would wait for every choice, and branches let it go ahead.
 #pragma once
 
 #include <algorithm>

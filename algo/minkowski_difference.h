@@ -72,6 +72,13 @@ RelativePose<D, S> relative_pose(const PlacedAxes<D>& pose_a, const Vector<D, do
   return relative;
 }
 
+/// MinkowskiDifference::rounding_floor of bodies of these extents, added, with this square of p.
+template <class S>
+S rounding_floor_of(S extents, S squared) {
+  constexpr int roundings = std::is_same_v<S, double> ? 20 : 16;
+  return roundings * std::numeric_limits<S>::epsilon() / 2 * (extents + std::sqrt(squared));
+}
+
 /// A and B are anything with support(direction), reference(), center(), extent(), radius() and polytope(), and for Newton's directions
 /// add_support_derivative(…): Convex among them. SAT and projections look for core(), too.
 template <int D_, class S_, class A, class B = A>
@@ -161,9 +168,7 @@ class MinkowskiDifference {
   MinkowskiDifference(const A& a, const B& b, const Pose& pose) : a_(a), b_(b), pose_(pose()) {
     S squared = 0;
     for (int i = 0; i < D; ++i) squared += pose_.position[i] * pose_.position[i];
-    const S magnitude = static_cast<S>(a.extent() + b.extent()) + std::sqrt(squared);
-    constexpr int roundings = std::is_same_v<S, double> ? 20 : 16;
-    rounding_floor_ = roundings * std::numeric_limits<S>::epsilon() / 2 * magnitude;
+    rounding_floor_ = rounding_floor_of(static_cast<S>(a.extent() + b.extent()), squared);
   }
 
   const A& a_;

@@ -49,6 +49,13 @@ std::string body_name(const Recording& recording, int body) {
 
 std::string facet_name(const Recording& recording) { return recording.scene.scene.dimension == 2 ? "edge" : "face"; }
 
+bool of_two_rectangles(const Recording& recording, std::size_t step) {
+  if (recording.scene.scene.dimension != 2) return false;
+  for (std::size_t i = step + 1; i-- > 0;)
+    if (const auto* began = std::get_if<recorded::SatBegan>(&recording.events[i])) return began->faces_a == 2 && began->faces_b == 2;
+  return false;
+}
+
 std::string body_letter(int body) { return body < 26 ? std::string(1, static_cast<char>('A' + body)) : std::to_string(body); }
 
 namespace {

@@ -128,6 +128,11 @@ TEST(BoxSat, TracesWhatItComputes) {
     const Result r = solve(scene, sat(scene), recorder), silent = solve(scene, sat(scene));
     EXPECT_EQ(*r.signed_distance, *silent.signed_distance);
     EXPECT_EQ(*r.witness_a, *silent.witness_a);
+    EXPECT_EQ(*r.witness_b, *silent.witness_b);
+    EXPECT_EQ(*r.normal, *silent.normal);
+    EXPECT_EQ(*r.lower_bound, *silent.lower_bound);
+    EXPECT_EQ(*r.upper_bound, *silent.upper_bound);
+    EXPECT_EQ(r.status, silent.status);
     EXPECT_EQ(r.iterations, silent.iterations);
     EXPECT_EQ(r.support_calls, silent.support_calls);
     for (const auto& event : recorder.take_all()) {
