@@ -54,11 +54,11 @@ class Rectangles {
 
   /// One of the four edges towards p, by its place in the table.
   struct Edge {
-    S tx, ty;       ///< along it
-    S side;         ///< 1 or -1: sign(n . p)
-    S apart;        ///< the separation along its normal
-    S on, beyond;   ///< of its points the nearest to p, from its middle; what of p's place along it lies beyond its end
-    S ax, ay;       ///< A's part of that point
+    S tx, ty;      ///< along it
+    S side;        ///< 1 or -1: sign(n . p)
+    S apart;       ///< the separation along its normal
+    S on, beyond;  ///< of its points the nearest to p, from its middle; what of p's place along it lies beyond its end
+    S ax, ay;      ///< A's part of that point
 
     S nearness() const { return apart * apart + beyond * beyond; }
     S nx() const { return -ty * side; }
@@ -100,7 +100,7 @@ class Rectangles {
     found.corner = found.apart && best.beyond != 0;
     found.normal[0] = best.nx() + 0, found.normal[1] = best.ny() + 0;  // no negative zero
     found.distance = found.lower_bound = best.apart;
-    found.proven = found.apart || std::abs(best.beyond) <= floor;
+    found.proven = found.apart ? most - best.apart <= floor : std::abs(best.beyond) <= floor;
     S x = best.nx() * best.apart, y = best.ny() * best.apart;
     if (found.corner) {
       x += best.tx * best.beyond, y += best.ty * best.beyond;
@@ -123,8 +123,8 @@ class Rectangles {
 
   const S a0_, a1_;
   S b0_, b1_, cos_, sin_;  ///< half sizes; R's cosine and sine
-  const S p0_, p1_;  ///< in A's axes
-  S q0_, q1_;        ///< p in B's (those of R)
+  const S p0_, p1_;        ///< in A's axes
+  S q0_, q1_;              ///< p in B's (those of R)
 };
 
 template <class Difference, class Trace>

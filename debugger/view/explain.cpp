@@ -312,8 +312,8 @@ struct Explain : ExplainMotion {
       return {"Nearest points in turn", points + "They are " + short_number(e.closest.norm()) + " apart" + (farther(e) ? ", more than before: the step went too far, and part of it is taken back." : ".")};
     }
     const bool boxes = of_two_rectangles(recording, frame.step);
-    const std::string how = boxes ? "Of the edges of " + difference() + " that face O the one nearest to it has the points: " : "So a point looks for the nearest of the other body, and that for its nearest: ";
-    return {boxes ? "Nearest points, corner to corner" : "Points projected in turn", "No axis tells how far the bodies are apart: nearest to each other are a corner and an edge, or two corners. " + how + "a = " + short_vector(e.a) + ", b = " + short_vector(e.b) + ", " + short_number(e.closest.norm()) + " apart. Two points that are each the nearest to the other are the closest of all."};
+    const std::string how = boxes ? "two corners. Of the edges of " + difference() + " that face O the one nearest to it has them: " : "a corner and an edge, or two corners. So a point looks for the nearest of the other body, and that for its nearest: ";
+    return {boxes ? "Nearest points, corner to corner" : "Points projected in turn", "No axis tells how far the bodies are apart: nearest to each other are " + how + "a = " + short_vector(e.a) + ", b = " + short_vector(e.b) + ", " + short_number(e.closest.norm()) + " apart. Two points that are each the nearest to the other are the closest of all."};
   }
 
   /// Beyond what rounding makes of two equal distances.
