@@ -40,8 +40,7 @@ struct RectanglePair {
     result.upper_bound = (static_cast<double>(found.distance + floor) - radius + rounding) * unit + 0.0;
     set_witnesses<2, S>(result, WorkingFrame<2, S>(pose_a, Vector<2, double>::Zero(), scale), Vector<2, S>(found.a), Vector<2, S>(found.b), Vector<2, S>(found.normal), static_cast<double>(found.distance), radius_a,
                         radius_b);
-    if (found.apart) result.status.assign(sat_status_names[static_cast<std::size_t>(SatStatus::separated)]);
-    else result.status.assign(sat_status_names[static_cast<std::size_t>(SatStatus::overlapping)]);
+    result.status = sat_status_names[static_cast<std::size_t>(found.apart ? SatStatus::separated : SatStatus::overlapping)];
     result.iterations = 4 + found.corner, result.support_calls = 4;
     return true;
   }
