@@ -3,7 +3,8 @@
 // A - B has the edges of A and those of B turned around, so their separations decide (algo/polygon_separation.h, algo/sat.h). The widest is the distance
 // or, below zero, the depth with its sign turned, where the other polygon's corner lies across the edge, or, on edges that lie along one another, an end of
 // the edge across that polygon. Else the nearest features are two corners, or a corner and another edge: a point and its nearest on the other polygon, in
-// turn, come to them, and the plane across their difference proves it (as in algo/box_sat.h). Where it does not, GJK is asked.
+// turn, come to them in a few steps: points that are each the nearest to the other are the closest of all, as a plane across at either has the whole polygon behind it
+// (alternating projections; Cheney, Goldstein 1959, theorem 2). The separation along their difference proves it. Where it does not, GJK is asked.
 #pragma once
 
 #include <cmath>

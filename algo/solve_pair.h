@@ -18,7 +18,6 @@
 #include "algo/mpr.h"
 #include "algo/polygon_sat.h"
 #include "algo/projections.h"
-#include "algo/rectangle_sat.h"
 #include "algo/result.h"
 #include "algo/sat.h"
 #include "algo/voronoi.h"
@@ -232,7 +231,7 @@ class PairSolver {
   /// False: apart, and the distance is asked for, or the theorem does not hold.
   bool sat_decides(Query query) {
     const auto *box_a = solid_box<D, S>(difference_.a()), *box_b = solid_box<D, S>(difference_.b());
-    if (box_a && box_b) return solids_decide(std::conditional_t<D == 2, RectangleSat<Difference, Trace>, BoxSat<Difference, Trace>>(difference_, *box_a, *box_b, trace_), query);
+    if (box_a && box_b) return solids_decide(BoxSat<Difference, Trace>(difference_, *box_a, *box_b, trace_), query);
     if constexpr (D == 2) {
       const PolygonOf<S> a(difference_.a()), b(difference_.b());
       if (a.polygon && b.polygon) return solids_decide(PolygonSat<Difference, Trace>(difference_, *a.polygon, *b.polygon, trace_), query);

@@ -243,8 +243,8 @@ struct AxisTested {
   }
 };
 
-/// A point of each core, `b` the nearest to the one before (or to the point predicted) and `a` the nearest to `b`; `closest` is a - b. Also of two boxes no
-/// axis of which tells the distance (then `b` is the nearest to the last `a`). The bounds are of the bodies' signed distance.
+/// A point of each core, `b` the nearest to the one before (or to the point predicted) and `a` the nearest to `b`; `closest` is a - b. Also of two boxes or
+/// polygons no axis of which tells the distance (of boxes the nearest at once; then `b` is the nearest to the last `a`). The bounds are of the bodies' signed distance.
 template <class V, class Store>
 struct PointsProjected {
   static constexpr std::string_view kind = "points_projected";

@@ -311,10 +311,13 @@ struct Explain : ExplainMotion {
       if (e.closest.isZero(0)) return {"A point of both bodies", points + "They are the same: the cores overlap."};
       return {"Nearest points in turn", points + "They are " + short_number(e.closest.norm()) + " apart" + (farther(e) ? ", more than before: the step went too far, and part of it is taken back." : ".")};
     }
-    const bool boxes = of_two_rectangles(recording, frame.step);
-    const std::string how = boxes ? "two corners. Of the edges of " + difference() + " that face O the one nearest to it has them: " : "a corner and an edge, or two corners. So a point looks for the nearest of the other body, and that for its nearest: ";
-    return {boxes ? "Nearest points, corner to corner" : "Points projected in turn", "No axis tells how far the bodies are apart: nearest to each other are " + how + "a = " + short_vector(e.a) + ", b = " + short_vector(e.b) + ", " + short_number(e.closest.norm()) + " apart. Two points that are each the nearest to the other are the closest of all."};
+    const std::string points = "a = " + short_vector(e.a) + ", b = " + short_vector(e.b) + ", " + short_number(e.closest.norm()) + " apart. ";
+    const std::string why = "No axis tells how far the bodies are apart: nearest to each other are " + std::string(recording.scene.scene.dimension == 2 && boxes() ? "" : "a corner and an edge, or ") + "two corners. ";
+    if (boxes()) return {"The nearest points, at a corner", why + "Of the " + facet() + "s of " + difference() + " that face O the one nearest to it has them: " + points + "A plane across them has all of " + difference() + " behind it, so nothing is nearer."};
+    return {"Points projected in turn", why + "So a point looks for the nearest of the other body, and that for its nearest: " + points + "Two points that are each the nearest to the other are the closest of all."};
   }
+
+  bool boxes() const { return of_two_boxes(recording, frame.step); }
 
   /// Beyond what rounding makes of two equal distances.
   bool farther(const recorded::PointsProjected& e) const {
@@ -329,7 +332,7 @@ struct Explain : ExplainMotion {
   Explanation operator()(const recorded::SatEnded& e) const {
     const std::string title = "SAT ends: " + std::string(sat_status_names[static_cast<std::size_t>(e.status)]);
     if (e.status == SatStatus::separated && frame.step > 0 && std::holds_alternative<recorded::PointsProjected>(recording.events[frame.step - 1]))
-      return {title, "An axis separates the bodies (their cores), and the points projected last are each the nearest to the other: " + short_number(e.distance) + " along " + short_vector(e.normal) + " is the distance."};
+      return {title, "An axis separates the bodies (their cores), and " + std::string(boxes() ? "the nearest points are known: " : "the points projected last are each the nearest to the other: ") + short_number(e.distance) + " along " + short_vector(e.normal) + " is the distance."};
     if (e.status == SatStatus::separated)
       return {title, "One separating axis is proof enough: the bodies (their cores) are apart, " + (gjk_follows() ? "by at least " + short_number(e.distance) + ". GJK measures how far." : recording.scene.scene.query == Query::intersect ? "and no more was asked." : short_number(e.distance) + " along " + short_vector(e.normal) + ", from one nearest point to the other.")};
     if (e.status == SatStatus::undecided) return {title, "The widest gap, " + short_number(e.distance) + ", is within rounding. Bodies that touch have none wider, but neither have sharp ones that point at each other from afar. GJK tells them apart."};

@@ -29,8 +29,8 @@ PseudoCode pseudo_code(const Recording& recording, std::size_t step);
 bool rounded(const Scene& scene);
 /// Whether an advance of a cast is the last before the bodies meet.
 bool meets_at(const Recording& recording, std::size_t step);
-/// Whether a step is of the SAT of two boxes in the plane.
-bool of_two_rectangles(const Recording& recording, std::size_t step);
+/// Whether a step is of the SAT of two boxes.
+bool of_two_boxes(const Recording& recording, std::size_t step);
 /// The name it has in the scene; "body 0" where it has none.
 std::string body_name(const Recording& recording, int body);
 /// What a polytope's border consists of: "face"; in the plane "edge".

@@ -49,10 +49,10 @@ std::string body_name(const Recording& recording, int body) {
 
 std::string facet_name(const Recording& recording) { return recording.scene.scene.dimension == 2 ? "edge" : "face"; }
 
-bool of_two_rectangles(const Recording& recording, std::size_t step) {
-  if (recording.scene.scene.dimension != 2) return false;
+bool of_two_boxes(const Recording& recording, std::size_t step) {
+  const int dimension = recording.scene.scene.dimension;
   for (std::size_t i = step + 1; i-- > 0;)
-    if (const auto* began = std::get_if<recorded::SatBegan>(&recording.events[i])) return began->faces_a == 2 && began->faces_b == 2;
+    if (const auto* began = std::get_if<recorded::SatBegan>(&recording.events[i])) return dimension > 1 && began->faces_a == dimension && began->faces_b == dimension;
   return false;
 }
 

@@ -50,6 +50,8 @@ struct Directions {
     V n;
     double height;
     std::array<const Point*, 4> edges;  ///< n = (e1 - e0) x (e3 - e2)
+
+    Point exactly() const { return cross(*edges[1] - *edges[0], *edges[3] - *edges[2]); }
   };
   std::vector<Candidate> candidates;
 
@@ -75,9 +77,10 @@ struct Directions {
       const double h = height(unit);
       if (h > least + 1e-8 * pair.size) continue;
       least = std::min(least, h);
-      const auto same = [&](const Candidate& c) { return (c.n - unit).norm() < 2e-15; };  // the heights differ by no more than that, times the size
-      if (std::any_of(candidates.begin(), candidates.end(), same)) continue;
-      candidates.push_back({unit, h, sign > 0 ? std::array{&p0, &p1, &q0, &q1} : std::array{&p1, &p0, &q0, &q1}});
+      const Candidate candidate{unit, h, sign > 0 ? std::array{&p0, &p1, &q0, &q1} : std::array{&p1, &p0, &q0, &q1}};
+      // Of short edges n may be far from what it is exactly.
+      const auto same = [&](const Candidate& c) { return (c.n - unit).norm() < 2e-15 && is_zero(cross(c.exactly(), candidate.exactly())); };
+      if (std::none_of(candidates.begin(), candidates.end(), same)) candidates.push_back(candidate);
     }
   }
 
@@ -88,7 +91,7 @@ struct Directions {
 
   void finish() {
     for (const Candidate& c : candidates)
-      if (c.height <= least + 1e-8 * pair.size) exact.push_back(cross(*c.edges[1] - *c.edges[0], *c.edges[3] - *c.edges[2]));
+      if (c.height <= least + 1e-8 * pair.size) exact.push_back(c.exactly());
   }
 };
 
