@@ -3,9 +3,7 @@
 #pragma once
 
 #include "algo/box_sat.h"
-#include "algo/result.h"
-#include "algo/trace.h"
-#include "algo/world_trace.h"
+#include "algo/sat_answer.h"
 
 namespace gjkdbg {
 
@@ -31,10 +29,9 @@ struct BoxPair {
     const S floor = rounding_floor_of(extents, squared);
     const BoxPoints<D, S> found = box_axes<D, S>(half_a, half_b, [&](int i, int j) { return between.turn(i, j); }, p).points(floor);
     if (!found.proven) return false;
-    const double unit = 1 / scale, radius = radius_a + radius_b, rounding = 2 * std::numeric_limits<double>::epsilon() * radius;
-    result.lower_bound = (static_cast<double>(found.lower_bound - floor) - radius - rounding) * unit + 0.0;  // no negative zero
-    result.upper_bound = (static_cast<double>(found.distance + floor) - radius + rounding) * unit + 0.0;
-    set_witnesses<D, S>(result, WorkingFrame<D, S>(pose_a, Vector<D, double>::Zero(), scale), found.a, found.b, found.normal, static_cast<double>(found.distance), radius_a, radius_b);
+    NearestPoints<D, S> cores = found;
+    cores.lower_bound -= floor;
+    SatAnswer<D, S>{WorkingFrame<D, S>(pose_a, Vector<D, double>::Zero(), scale), radius_a, radius_b, floor}.set(result, cores);
     result.status = sat_status_names[static_cast<std::size_t>(found.apart ? SatStatus::separated : SatStatus::overlapping)];
     result.iterations = found.axes + found.corner, result.support_calls = found.axes;
     return true;

@@ -61,13 +61,13 @@ RelativePose<D, S> relative_pose(const PlacedAxes<D>& pose_a, const Vector<D, do
     if (reference_a[j] != 0)
       for (int i = 0; i < D; ++i) offset[i] = offset[i] - Two::two_product(pose_a.rotation(i, j), reference_a[j]);
   }
-  Vector<D, double> high, low;
-  for (int i = 0; i < D; ++i) high[i] = offset[i].high, low[i] = offset[i].low;
   RelativePose<D, S> relative;
   for (int i = 0; i < D; ++i) {
     const auto axis = pose_a.rotation.col(i);
     for (int j = 0; j < D; ++j) relative.rotation(i, j) = relative.inverse(j, i) = static_cast<S>(axis.dot(pose_b.rotation.col(j)));
-    relative.position[i] = static_cast<S>(axis.dot(high) + axis.dot(low));
+    double high = axis[0] * offset[0].high, low = axis[0] * offset[0].low;  // number by number, as they are written
+    for (int k = 1; k < D; ++k) high += axis[k] * offset[k].high, low += axis[k] * offset[k].low;
+    relative.position[i] = static_cast<S>(high + low);
   }
   return relative;
 }

@@ -2,6 +2,7 @@
 
 #include "algo/box_pair.h"
 #include "algo/closed_form.h"
+#include "algo/polygon_query.h"
 #include "algo/solve_pair.h"
 #include "shapes/convex.h"
 
@@ -13,19 +14,26 @@ class Prepared final : public PreparedPair {
  public:
   Prepared(const Body& a, const Body& b, double scale)
       : a_(a.shape, scale), b_(b.shape, scale), pose_a_(a.pose), pose_b_(b.pose), scale_(scale), features_a_(a.shape, D), features_b_(b.shape, D),
-        segment_a_(core_segment(a_)), segment_b_(core_segment(b_)), boxes_(BoxPair<D, S>::of(a_, b_, scale)) {}
+        segment_a_(core_segment(a_)), segment_b_(core_segment(b_)), boxes_(BoxPair<D, S>::of(a_, b_, scale)) {
+    if constexpr (D == 2) polygons_ = PolygonQuery<S>::of(a_, b_, scale);
+  }
 
   Result run(const Settings& settings, Query query) override {
-    if (boxes_ && settings.name == MethodName::sat && query >= Query::penetration && settings.penetration != Penetration::none) return of_boxes(settings, query);
+    if (settings.name == MethodName::sat && query >= Query::penetration && settings.penetration != Penetration::none) {
+      if (boxes_) return answered_by(*boxes_, settings, query);
+      if constexpr (D == 2)
+        if (polygons_) return answered_by(*polygons_, settings, query);
+    }
     return of_pair(settings, query);
   }
   std::vector<SimplexPoint> simplex() const override { return simplex_points(warm_, a_, b_, scale_); }
   void place(const Pose& a, const Pose& b) override { pose_a_ = a, pose_b_ = b; }
 
  private:
-  Result of_boxes(const Settings& settings, Query query) {
+  template <class Pair>
+  Result answered_by(const Pair& pair, const Settings& settings, Query query) {
     Result result;
-    if (!boxes_->solve(pose_a_, pose_b_, result)) result = of_pair(settings, query);
+    if (!pair.solve(pose_a_, pose_b_, result)) result = of_pair(settings, query);
     return result;
   }
   Result of_pair(const Settings& settings, Query query) {
@@ -43,6 +51,7 @@ class Prepared final : public PreparedPair {
   LateFeatures features_a_, features_b_;
   std::optional<CoreSegment<D>> segment_a_, segment_b_;  ///< of the closed form
   std::optional<BoxPair<D, S>> boxes_;
+  std::conditional_t<D == 2, std::optional<PolygonQuery<S>>, std::monostate> polygons_;
 };
 
 template <int D>
