@@ -43,8 +43,8 @@ struct BoxPair {
     const PlacedAxes<D>&a, &b;
     DoubleDouble x, y, z;  ///< from body 0's origin to body 1's; as many as there are
 
-    Between(const PlacedAxes<D>& pose_a, const PlacedAxes<D>& pose_b, double scale) : a(pose_a), b(pose_b), x(offset(0, scale)), y(offset(D > 1 ? 1 : 0, scale)), z(offset(D > 2 ? 2 : 0, scale)) {}
-    DoubleDouble offset(int i, double scale) const { return DoubleDouble::two_sum(b.position[i] * scale, -(a.position[i] * scale)); }
+    Between(const PlacedAxes<D>& pose_a, const PlacedAxes<D>& pose_b, double times) : a(pose_a), b(pose_b), x(offset(0, times)), y(offset(D > 1 ? 1 : 0, times)), z(offset(D > 2 ? 2 : 0, times)) {}
+    DoubleDouble offset(int i, double times) const { return DoubleDouble::two_sum(b.position[i] * times, -(a.position[i] * times)); }
     S turn(int i, int j) const { return static_cast<S>(along(i, b.rotation(0, j), b.rotation(D > 1 ? 1 : 0, j), b.rotation(D > 2 ? 2 : 0, j))); }
     S position(int i) const { return static_cast<S>(along(i, x.high, y.high, z.high) + along(i, x.low, y.low, z.low)); }
 

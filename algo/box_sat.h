@@ -84,8 +84,8 @@ class BoxSat {
     constexpr auto all = std::make_integer_sequence<int, Axes::axes>{};
     if (std::isinf(enough)) {
       const BoxPoints<D, S> found = axes_.points(floor_);
+      tested_ = found.axes;
       if constexpr (traced<Trace>) look_along(enough, D == 3 && found.axes == 2 * D ? 2 * D : Axes::axes, all);
-      else tested_ = found.axes;
       take(found);
     } else {
       look_along(enough + floor_, Axes::axes, all);
@@ -115,6 +115,7 @@ class BoxSat {
   /// One axis after the other, until one says enough, or `last` of them.
   template <int... k>
   void look_along(S enough, int last, std::integer_sequence<int, k...>) {
+    tested_ = 0;
     ((k == last || (axes_.template is_axis<k>() && separates<k>(enough))) || ...);
     result_.iterations = tested_;
   }
