@@ -75,6 +75,20 @@ TEST(BoxSat, AgreesWithExactArithmetic) {
   agreement.finish();
 }
 
+/// Of 60,000 pairs those that were wrong once: an axis proved the distance of points a little beside it (7000); of nearly parallel edges p seemed beside a facet
+/// it is far from (1083), and a sliver's points lay 3e-13 off (17729); the oracle took two directions for one (25313).
+TEST(BoxSat, PairsThatWereWrongOnce) {
+  BoxPairs random;
+  SatAgreement agreement{&outside_box, 1};
+  for (int k = 0; k <= 25313; ++k) {
+    const Scene scene = random.scene(2 + k % 2, k / 2);
+    SCOPED_TRACE(k);
+    for (const int wrong : {1083, 7000, 17729, 25313})
+      if (k == wrong) agreement.judge(scene, 8);
+  }
+  EXPECT_EQ(agreement.pairs, 4);
+}
+
 /// A corner nearest to a corner, to an edge, to a face, edges that cross, and what lies flat: no pair of boxes that are well apart needs GJK.
 TEST(BoxSat, ProjectsPointsWhereNoAxisTellsTheDistance) {
   std::mt19937 random(3);
@@ -118,6 +132,38 @@ TEST(BoxSat, ProjectsPointsWhereNoAxisTellsTheDistance) {
   }
   EXPECT_GT(apart, 500);
   EXPECT_GT(projected, apart / 4);
+}
+
+/// Face on face, turned alike or about the faces' axis: facets lie in one plane, and rounding says of none of their corners which way it goes.
+TEST(BoxSat, FacesFlatOnOneAnotherSeldomNeedGjk) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  constexpr std::array gaps{1e-9, -1e-9, 0.0, 0.1, -0.1};
+  int by_gjk = 0;
+  for (int k = 0; k < 300 && !testing::Test::HasFailure(); ++k) {
+    SCOPED_TRACE(k);
+    const Eigen::Vector4d q = Eigen::Vector4d::NullaryExpr([&] { return uniform(random); });
+    const Eigen::Matrix3d turn = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
+    Scene scene;
+    scene.dimension = 3, scene.query = Query::penetration;
+    double reach = 0;
+    for (int i = 0; i < 2; ++i) {
+      const Eigen::Vector3d half = Eigen::Vector3d::NullaryExpr([&] { return 0.6 + 0.4 * uniform(random); });
+      Body b{"", {Box{AnyVector(-half), AnyVector(half)}, 0}, identity_pose(3)};
+      b.pose.matrix = i == 1 && k % 2 == 1 ? Eigen::Matrix3d(turn * Eigen::AngleAxisd(3 * uniform(random), Eigen::Vector3d::UnitZ()).toRotationMatrix()) : turn;
+      reach += half[2];
+      scene.bodies.push_back(b);
+    }
+    scene.bodies[1].pose.position = turn * Eigen::Vector3d(0.6 * uniform(random), 0.6 * uniform(random), reach + gaps[static_cast<std::size_t>(k) % gaps.size()]);
+    const auto exact = oracle::signed_distance(scene);
+    ASSERT_TRUE(exact);
+    const Result r = solve(scene, sat(scene));
+    EXPECT_NEAR(*r.signed_distance, exact->signed_distance, 1e-14);
+    EXPECT_NEAR(across(scene, *r.normal), exact->signed_distance, 1e-14);
+    EXPECT_LE(std::max(outside_box(scene.bodies[0], *r.witness_a), outside_box(scene.bodies[1], *r.witness_b)), 1e-14);
+    by_gjk += r.support_calls > 15;
+  }
+  EXPECT_LE(by_gjk, 3);
 }
 
 TEST(BoxSat, TracesWhatItComputes) {
