@@ -1,4 +1,4 @@
-// The penetration query of two convex polygons in the plane, from the poses to the answer in one piece, as algo/box_pair.h is that of two boxes.
+// The penetration query of two convex polygons in the plane, from the poses to the answer in one piece, as algo/box_query.h is that of two boxes.
 #pragma once
 
 #include "algo/polygon_sat.h"
@@ -59,7 +59,7 @@ struct PolygonQuery {
     const Matrix<2, S>& rotation() const { return pose.rotation; }
     const V& position() const { return pose.position; }
     void count_supports(int more) { heights += more; }
-    S radius() const { return 0; }
+    S radius() const { return 0; }  ///< of a trace only
   };
 };
 

@@ -1,6 +1,6 @@
 #include "algo/prepared_pair.h"
 
-#include "algo/box_pair.h"
+#include "algo/box_query.h"
 #include "algo/closed_form.h"
 #include "algo/polygon_query.h"
 #include "algo/solve_pair.h"
@@ -14,7 +14,7 @@ class Prepared final : public PreparedPair {
  public:
   Prepared(const Body& a, const Body& b, double scale)
       : a_(a.shape, scale), b_(b.shape, scale), pose_a_(a.pose), pose_b_(b.pose), scale_(scale), features_a_(a.shape, D), features_b_(b.shape, D),
-        segment_a_(core_segment(a_)), segment_b_(core_segment(b_)), boxes_(BoxPair<D, S>::of(a_, b_, scale)) {
+        segment_a_(core_segment(a_)), segment_b_(core_segment(b_)), boxes_(BoxQuery<D, S>::of(a_, b_, scale)) {
     if constexpr (D == 2) polygons_ = PolygonQuery<S>::of(a_, b_, scale);
   }
 
@@ -50,7 +50,7 @@ class Prepared final : public PreparedPair {
   WarmStart<D, S> warm_;
   LateFeatures features_a_, features_b_;
   std::optional<CoreSegment<D>> segment_a_, segment_b_;  ///< of the closed form
-  std::optional<BoxPair<D, S>> boxes_;
+  std::optional<BoxQuery<D, S>> boxes_;
   std::conditional_t<D == 2, std::optional<PolygonQuery<S>>, std::monostate> polygons_;
 };
 

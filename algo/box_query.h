@@ -8,17 +8,17 @@
 namespace gjkdbg {
 
 template <int D, class S>
-struct BoxPair {
+struct BoxQuery {
   Vector<D, S> half_a, half_b;  ///< times `scale`, as all lengths but the poses'
   S extents;                    ///< added
   double radius_a, radius_b;
   double scale;
 
   /// Nothing for other shapes, and boxes whose middle or core's reference point is not their body's origin.
-  static std::optional<BoxPair> of(const Convex<D, S>& a, const Convex<D, S>& b, double scale) {
+  static std::optional<BoxQuery> of(const Convex<D, S>& a, const Convex<D, S>& b, double scale) {
     const auto *box_a = solid_box<D, S>(a), *box_b = solid_box<D, S>(b);
     if (!box_a || !box_b || !box_a->center().isZero(0) || !box_b->center().isZero(0) || !a.reference().isZero(0) || !b.reference().isZero(0)) return std::nullopt;
-    return BoxPair{box_a->half(), box_b->half(), static_cast<S>(a.extent() + b.extent()), a.radius(), b.radius(), scale};
+    return BoxQuery{box_a->half(), box_b->half(), static_cast<S>(a.extent() + b.extent()), a.radius(), b.radius(), scale};
   }
 
   /// False: rounding has the last word, and `result` means nothing.
