@@ -24,7 +24,7 @@
 // point is there, and the plane tells.
 //
 // Where an element of R is next to zero, features lie flat on one another: facets lie in one plane, and are parts of a larger one. As signs of such elements are
-// noise they are set to those of a small turn more, of one axis for all: then the parts cover the whole.
+// noise they are taken for zeros with the signs of a small turn more, of one axis for all: then the parts cover the whole.
 #pragma once
 
 #include <algorithm>
@@ -114,7 +114,8 @@ class Boxes {
 
  private:
   static constexpr int faces = 6;
-  static constexpr S next_to_zero = 4 * std::numeric_limits<S>::epsilon();
+  /// 4 u of MinkowskiDifference::rounding_floor, which has room for them: a height of two boxes rounds 6 times, not 10.
+  static constexpr S next_to_zero = 2 * std::numeric_limits<S>::epsilon();
   static constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
   static S sign(S x) { return std::copysign(S(1), x); }
   static S greater(S x, S y) { return x < y ? y : x; }
