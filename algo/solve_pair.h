@@ -359,10 +359,7 @@ class PairSolver {
   }
 
   /// From bounds of the cores' signed distance.
-  void set_bounds(S lower, S upper) {
-    result_->lower_bound = length(static_cast<double>(lower) - radius_ - rounding());
-    result_->upper_bound = length(static_cast<double>(upper) - radius_ + rounding());
-  }
+  void set_bounds(S lower, S upper) { gjkdbg::set_bounds(*result_, static_cast<double>(lower), static_cast<double>(upper), radius_a(), radius_b(), frame_.unit); }
   /// The radii are sums, and taking them off rounds once more.
   double rounding() const { return 2 * std::numeric_limits<double>::epsilon() * radius_; }
   void no_bound_below_zero() {

@@ -48,6 +48,13 @@ void set_witnesses(Result& result, const WorkingFrame<D, S>& frame, const Vector
   set<D>(result.witness_b, middle + n * ((core_distance / 2 - radius_b) * frame.unit));
 }
 
+/// The bodies' bounds, from those of the cores' signed distance. The radii are sums, and taking them off rounds once more.
+inline void set_bounds(Result& result, double lower, double upper, double radius_a, double radius_b, double unit) {
+  const double radius = radius_a + radius_b, rounding = 2 * std::numeric_limits<double>::epsilon() * radius;
+  result.lower_bound = (lower - radius - rounding) * unit + 0.0;  // no negative zero
+  result.upper_bound = (upper - radius + rounding) * unit + 0.0;
+}
+
 /// The answer of a distance query to an overlap: a point of both bodies between the nearest points of their cores.
 template <int D, class S>
 void set_common_point(Result& result, const WorkingFrame<D, S>& frame, const Vector<D, S>& a, const Vector<D, S>& b, double radius_a, double radius_b) {
