@@ -81,7 +81,7 @@ class Epa {
     lower_ = face.distance;
     const bool better = (height < best_height_) | (result_.face < 0);
     const S reach_a = face.normal.dot(point.a);
-    if (better && !difference_.polytope()) best_ = point;
+    if (!difference_.polytope() && better) best_ = point;
     best_height_ = better ? height : best_height_;
     reach_a_ = better ? reach_a : reach_a_;
     result_.face = better ? number : result_.face;
