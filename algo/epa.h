@@ -82,9 +82,10 @@ class Epa {
     const bool better = (height < best_height_) | (result_.face < 0);
     const S reach_a = face.normal.dot(point.a);
     if (!difference_.polytope() && better) best_ = point;
+    // From here on choices and no branches: no processor can guess them.
     best_height_ = better ? height : best_height_;
     reach_a_ = better ? reach_a : reach_a_;
-    result_.face = better ? number : result_.face;
+    result_.face ^= (result_.face ^ number) & -static_cast<int>(better);
   }
 
   Point query(const V& d, Phase phase) {

@@ -213,13 +213,20 @@ int Polytope<D, S>::nearest() {
   return found.value > gone ? numbers_[found.place] : -1;
 }
 
-/// Leaves the removed ones' places to the others, which keep their order.
+/// Leaves the removed ones' places to the others, which keep their order. Which have been removed is nothing a processor can guess.
 template <int D, class S>
 void Polytope<D, S>::forget_removed() {
-  std::fill_n(nearness_.begin(), (places_ + 3) / 4, nobody());
-  const std::size_t before = std::exchange(places_, 0);
-  for (std::size_t i = 0; i < before; ++i)
-    if (Face& face = faces_[numbers_[i]]; !face.removed) take_place(face, numbers_[i]);
+  std::size_t standing = 0;
+  for (std::size_t i = 0; i < places_; ++i) {
+    const int number = numbers_[i];
+    const S nearness = nearness_[i / 4][i % 4];
+    numbers_[standing] = number;
+    set_nearness(standing, nearness);
+    faces_[number].place = static_cast<std::uint32_t>(standing);
+    standing += !faces_[number].removed;  // the next one comes here, if not
+  }
+  for (std::size_t i = standing; i < places_; ++i) set_nearness(i, gone);
+  places_ = standing;
   tidy_at_ = 2 * places_ + 64;
 }
 
