@@ -308,6 +308,23 @@ TEST_F(Words, APhaseOfAMotionIsWhereItMovesOn) {
   EXPECT_NE(at(last()).text, "");
 }
 
+TEST_F(Words, AndEveryNameDrawnHasAMeaning) {
+  const Projection projection(Camera{}, {0, 0, 300, 300});
+  std::set<std::string> without;
+  for (const Lesson& lesson : app.gallery().lessons)
+    for (const std::string& scene : lesson.scenes) {
+      app.open_gallery(scene);
+      const std::size_t every = 1 + session.count() / 40;
+      for (std::size_t k = 0; k < session.count(); k += every) {
+        session.go_to(k);
+        for (const bool world : {true, false})
+          for (const PictureLabel& label : (world ? world_picture : difference_picture)(session.meshes(), session.recording(), session.frame(), ViewSettings{}, dark_palette, projection).labels)
+            if (label.text[0] != '#' && meaning_of(label.text, world, session.frame(), session.recording()).empty()) without.insert((world ? "world: " : "difference: ") + label.text);
+      }
+    }
+  EXPECT_EQ(without, std::set<std::string>{});
+}
+
 TEST_F(Words, AndTheArrowsTheyNameAreInView) {
   for (const char* scene : {"2d-squares-apart", "2d-deep", "box-box-apart", "box-box-deep"}) {
     app.open_gallery(scene);

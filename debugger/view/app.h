@@ -130,6 +130,8 @@ void scrubber(App& app);
 void bounds_plot(App& app, float width, float height);
 void motion_plot(App& app, float width, float height);
 void lab_panel(App& app, const Area& area);
+/// What a name in a picture stands for, with its numbers; empty where it says so itself.
+std::string meaning_of(const std::string& label, bool world, const Frame& frame, const Recording& recording);
 /// The two views, side by side or stacked, or the one chosen.
 void view_panels(App& app, const Area& area, bool interactive);
 
@@ -142,6 +144,8 @@ void section(const Theme& theme, const char* title);
 std::string shortened(const ImFont* font, const std::string& text, float room);
 /// Broken between words only: never within a number.
 void wrapped(const std::string& text, Colour colour);
+/// Of sentences, broken into lines.
+void tooltip(const Theme& theme, const std::string& text);
 /// A label on the left and a number in the monospaced font, right-aligned, below where there is no room beside.
 void number_row(const Theme& theme, const char* label, const std::string& value, Colour colour);
 /// A click goes to `source`, the step that produced the number. `exact`: with all digits, for the tooltip and a right click, which copies it.

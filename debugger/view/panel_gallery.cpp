@@ -6,15 +6,6 @@
 namespace gjkdbg {
 namespace {
 
-void description_tooltip(const Theme& theme, const std::string& description) {
-  if (description.empty()) return;
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(theme.px(360));
-  ImGui::TextUnformatted(description.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
-}
-
 /// One scene: its picture, its name, the beginning of what it says of itself. True when clicked.
 bool scene_row(App& app, const std::string& name, bool current) {
   const Theme& theme = app.theme;
@@ -24,7 +15,7 @@ bool scene_row(App& app, const std::string& name, bool current) {
   ImGui::PushID(name.c_str());
   const bool clicked = ImGui::Selectable("##scene", current, 0, {width, height});
   ImGui::PopID();
-  if (ImGui::IsItemHovered()) description_tooltip(theme, app.thumbnails().description(app.gallery(), name));
+  if (const std::string description = ImGui::IsItemHovered() ? app.thumbnails().description(app.gallery(), name) : ""; !description.empty()) tooltip(theme, description);
   if (!ImGui::IsRectVisible(at, {at.x + width, at.y + height})) return clicked;
   app.thumbnails().draw(app.gallery(), name, theme, {at.x + theme.px(4), at.y + theme.px(3)}, {at.x + theme.px(68), at.y + height - theme.px(3)});
   // A long name takes two lines, cut at a hyphen.

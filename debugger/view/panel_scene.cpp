@@ -162,12 +162,7 @@ bool body(const Theme& theme, Body& b, int index, Colour colour, int dimension, 
 void setting_label(const Theme& theme, const char* label, const char* meaning) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextColored(vec(theme.palette.text_soft), "%s", label);
-  if (!ImGui::IsItemHovered()) return;
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(theme.px(320));
-  ImGui::TextUnformatted(meaning);
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
+  if (ImGui::IsItemHovered()) tooltip(theme, meaning);
 }
 
 template <class Names>

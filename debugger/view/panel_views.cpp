@@ -44,6 +44,16 @@ std::optional<int> vertex_under(const std::vector<FlatItem>& items, ImVec2 mouse
   return best;
 }
 
+/// The text of the label under the pointer; empty where there is none.
+std::string label_under(const std::vector<FlatItem>& items, ImVec2 mouse, const Theme& theme) {
+  for (const FlatItem& item : items) {
+    if (item.kind != FlatItem::Kind::label) continue;
+    const ImVec2 from = at(item.points[0]), size = label_size(item, theme), margin{theme.px(3), theme.px(1)};
+    if (std::abs(mouse.x - from.x - size.x / 2) <= size.x / 2 + margin.x && std::abs(mouse.y - from.y - size.y / 2) <= size.y / 2 + margin.y) return item.text;
+  }
+  return "";
+}
+
 /// What the mouse holds in the world view.
 struct Held {
   int body = -1;
@@ -165,10 +175,13 @@ void interact(App& app, const Area& area, const Shown& shown, Camera& camera, co
   if (!ImGui::IsItemHovered()) return;
   const auto under = vertex_under(items, ImGui::GetIO().MousePos, theme.px(11));
   pointed = under;
-  const auto& vertices = (shown.other ? app.session.other_frame() : app.session.frame()).vertices;
+  const Frame& frame = shown.other ? app.session.other_frame() : app.session.frame();
+  const auto& vertices = frame.vertices;
   if (const auto found = under ? vertices.find(*under) : vertices.end(); found != vertices.end()) {
     const FrameVertex& v = found->second;
     ImGui::SetTooltip("vertex #%d\nw = %s\na = %s\nb = %s\nclick to select", *under, short_vector(v.w).c_str(), short_vector(v.a).c_str(), short_vector(v.b).c_str());
+  } else if (const std::string label = label_under(items, ImGui::GetIO().MousePos, theme); !label.empty()) {
+    if (const std::string meaning = meaning_of(label, shown.world, frame, shown.other ? app.session.other() : app.session.recording()); !meaning.empty()) tooltip(theme, meaning);
   }
   const ImVec2 drag = ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 0);
   if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && std::hypot(drag.x, drag.y) < 3) app.settings.selected = under;

@@ -36,14 +36,6 @@ void right_note(App& app) {
 
 namespace {
 
-void message_tooltip(const Theme& theme, const std::string& message) {
-  ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(theme.px(420));
-  ImGui::TextUnformatted(message.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::EndTooltip();
-}
-
 /// One that an earlier one explains does not call out.
 Colour colour_of(const Palette& p, const Finding& f) {
   if (f.message.starts_with("Follows from step")) return p.text_soft;
@@ -75,7 +67,7 @@ void findings_note(App& app) {
     const bool clicked = ImGui::Selectable(("step " + std::to_string(f.step) + "  " + f.code).c_str(), here);
     ImGui::PopStyleColor();
     ImGui::PopID();
-    if (ImGui::IsItemHovered() && !whole) message_tooltip(theme, f.message);
+    if (ImGui::IsItemHovered() && !whole) tooltip(theme, f.message);
     if (const std::string text = whole ? what_is_new(s.recording(), f) : ""; !text.empty()) wrapped(text, theme.palette.text_soft);
     if (here) first = false;
     if (clicked) s.go_to(f.step);

@@ -60,6 +60,14 @@ void number_row(const Theme& theme, const char* label, const std::string& value,
   ImGui::PopFont();
 }
 
+void tooltip(const Theme& theme, const std::string& text) {
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(theme.px(380));
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
 void number_row(App& app, const char* label, const std::string& value, Colour colour, std::optional<std::size_t> source, const std::string& exact) {
   number_row(app.theme, label, value, colour);
   if (source && *source >= app.session.count()) source.reset();
