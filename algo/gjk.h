@@ -34,6 +34,7 @@ enum class GjkGoal {
 template <int D, class S>
 struct GjkOptions {
   GjkGoal goal = GjkGoal::signed_distance;
+  static constexpr S decisive = std::is_same_v<S, double> ? S(1e-10) : S(1e-4);  ///< the gap at which bodies that may or may not touch are told apart, however coarse `tolerance` is
   S tolerance = S(1e-12);  ///< relative gap of the bounds at which the loop ends
   int max_iterations = 512;
   Vector<D, S> direction = Vector<D, S>::Unit(0);  ///< first search direction, not zero
@@ -233,7 +234,8 @@ class Gjk {
   bool proven(const Point& point) {
     if (options_.goal == GjkGoal::intersect && result_.lower_bound > difference_.radius())
       return end_as(GjkStatus::separated);
-    const bool met = result_.distance - plane_ <= options_.tolerance * result_.distance + floor_;
+    const S gap = result_.distance - plane_;
+    const bool met = gap <= options_.tolerance * result_.distance + floor_ && (gap <= GjkOptions<D, S>::decisive * result_.distance + floor_ || !straddles());
     if (options_.stopping != Stopping::bounds) {
       if (rule_met(point)) return end_as(met ? GjkStatus::converged : GjkStatus::rule_met);
     } else if (met) {
@@ -241,6 +243,12 @@ class Gjk {
     }
     if (result_.simplex.holds(point.w)) return end_as(GjkStatus::stalled);
     return false;
+  }
+
+  /// Whether the bounds leave open if the radii reach across the distance. (Without radii a plane that is met at all has the origin outside.)
+  bool straddles() const {
+    const S radius = difference_.radius();
+    return radius > 0 && result_.lower_bound <= radius && result_.upper_bound > radius;
   }
 
   /// Other libraries' rules, as their sources have them (see Stopping); v.w and |v|^2 are not yet those of the next simplex.

@@ -90,8 +90,8 @@ class PairSolver {
 
   /// Yes or no is proven, not approximated: a coarse tolerance, meant for distances, has no say in it.
   S tolerance_for(Query query) const {
-    constexpr double finest = std::is_same_v<S, double> ? 1e-10 : 1e-4;  // the defaults of curved pairs
-    return static_cast<S>(query == Query::intersect ? std::min(settings_.tolerance, finest) : settings_.tolerance);
+    const S tolerance = static_cast<S>(settings_.tolerance);
+    return query == Query::intersect ? std::min(tolerance, GjkOptions<D, S>::decisive) : tolerance;
   }
 
   void run_gjk(const GjkOptions<D, S>& options) {

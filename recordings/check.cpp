@@ -173,7 +173,8 @@ std::vector<Finding> CheckContext::take() {
                                                        "cycle",         "no-progress",   "support-limit",   "timeout",     "crash"};
   const bool of_the_last = root->code == std::string_view("origin-not-enclosed") || root->code == std::string_view("wrong-answer");
   const std::optional<Finding>& cause = of_the_last ? last_suspicion_ : suspicion_;
-  if (cause && (!of_the_last || cause->step == last_simplex()) && cause->step < root->step && consequences.contains(root->code) && !seen_.contains(cause->code)) {
+  const bool of_the_result = last_is_nearest && root->step + 1 == recording.events.size();  // the search came to the right end
+  if (cause && !of_the_result && (!of_the_last || cause->step == last_simplex()) && cause->step < root->step && consequences.contains(root->code) && !seen_.contains(cause->code)) {
     findings_.insert(root, *cause);
     std::stable_sort(findings_.begin(), findings_.end(), [](const Finding& x, const Finding& y) { return x.step < y.step; });
     root = std::find_if(findings_.begin(), findings_.end(), is_error);
@@ -202,6 +203,17 @@ bool CheckContext::check_direction(const AnyVector& d) {
                            "first is an overlap (touching, where no more is asked; for the depth go on across the simplex, along any perpendicular); for the second start along any axis.");
     return false;
   }
+  return true;
+}
+
+bool CheckContext::of_few_digits(const AnyVector& given, const AnyVector& right, const std::string& what) {
+  if (!inferred || !given.allFinite() || (given - right).norm() > 1e-5 * right.norm()) return false;
+  for (const double x : given) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.7g", x);
+    if (std::strtod(text, nullptr) != x) return false;
+  }
+  find("few-digits", what + " is off by " + text_of((given - right).norm()) + ", and has no more than seven digits: print all seventeen (%.17g), or run with --scalar float, which asks for no more.", Finding::Severity::warning);
   return true;
 }
 

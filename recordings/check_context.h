@@ -42,6 +42,8 @@ class CheckContext {
   bool cores = true;                  ///< whether the recorded vertices are those of the cores, or of the whole bodies
   double digits() const { return recording.settings.scalar == Scalar::float_precision ? 1e-6 : 1e-14; }  ///< what rounding leaves of a length, relative
   double radius = 0;                  ///< between the recorded vertices' difference and the bodies
+  std::string unkept;                 ///< where GJK ended apart: what it had in hand and did not keep, though it is nearer; a sentence
+  bool last_is_nearest = false;       ///< whether the simplex that GJK ended with is as far from the origin as the bodies are apart
   const bool inferred;                ///< whether the ends of phases were put down by `run`, from what the solver answered
 
   /// MPR's vertices are of the whole bodies, whatever GJK's and EPA's are of.
@@ -76,6 +78,8 @@ class CheckContext {
   /// The position of a vertex; a finding, and nothing, when it was never handed out.
   const AnyVector* vertex(int number);
   bool check_direction(const AnyVector& d);
+  /// Of a vector off by no more than its own digits: that it was printed with six of them. False for others.
+  bool of_few_digits(const AnyVector& given, const AnyVector& right, const std::string& what);
 
  private:
   std::optional<std::size_t> last_simplex() const;
@@ -178,6 +182,8 @@ class GjkCheck {
   void check_closest(const recorded::SimplexReduced& e);
   void check_cycle(const std::vector<int>& region);
   void check_repetition(const AnyVector& direction);
+  bool begins_again(const recorded::SimplexReduced& e);
+  void note_unkept(double v, const std::vector<int>& all);
   bool heuristic_region(const std::vector<int>& before, const std::vector<int>& region, const AnyVector& v);
 
   CheckContext& c_;

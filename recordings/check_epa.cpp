@@ -74,8 +74,9 @@ void EpaCheck::add(const recorded::Face& f) {
       face.normal = f.normal, face.distance = f.distance;  // thin, so that its corners do not tell its normal; the given one is right
     } else if (c_.dimension > 1 && area <= 1e-15 * scale) {
       tell_no_gain();
-      c_.find("zero-area-face", "The face of vertices " + std::to_string(f.vertices[0]) + ", " + std::to_string(f.vertices[1]) + ", … has no area, so it has no normal. The usual cause is a new vertex in line with an edge of the horizon, or one "
-                                "that the polytope already had: stop, or remove the face behind that edge too.");
+      const bool twice = std::set<int>(f.vertices.begin(), f.vertices.end()).size() != f.vertices.size();
+      c_.find("zero-area-face", "The face " + list_of(f.vertices) + (twice ? " names a vertex twice, so it has no area and no normal. The usual cause is an index that is off by one, or a wrong row in a table of faces."
+                                : " has no area, so it has no normal. The usual cause is a new vertex in line with an edge of the horizon, or one that the polytope already had: stop, or remove the face behind that edge too."));
       face.usable = false;
     } else {
       face.normal /= area;

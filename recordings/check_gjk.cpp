@@ -219,6 +219,7 @@ void GjkCheck::check_closest(const recorded::SimplexReduced& e) {
   // A point off by x sideways is farther by only x^2 / (2 nearest).
   const double off = (e.closest - right).norm(), farther = e.closest.norm() - nearest;
   if (off <= std::max(limit, std::sqrt(2 * limit * (nearest + limit))) && std::abs(farther) <= limit) return;
+  if (c_.of_few_digits(e.closest, right, "The nearest point of " + list_of(e.region))) return;
   const std::string given = "The nearest point of " + list_of(e.region) + " is given as " + text_of(e.closest) + ", " + text_of(e.closest.norm()) + " from the origin; it is " + text_of(right) + ", at " + text_of(nearest) + ".";
   if ((e.closest + right).norm() <= limit) c_.find("wrong-closest", given + " That is the same point with its sign turned: is your w = b - a, or did you give the next direction?");
   else if (farther < -limit) c_.find("wrong-closest", given + " What is nearer lies outside the simplex. The usual cause is weights that are not clamped, or a vertex or edge region that is not tested for.");
@@ -246,8 +247,24 @@ void GjkCheck::check_cycle(const std::vector<int>& region) {
     repeated_from_ = found->second, repeated_at_ = c_.step;
 }
 
+/// Some programs search for yes or no first, and then once more, from the beginning, for the distance: with vertices of which the last simplex had none,
+/// and farther from the origin than it was. Nothing of the search before counts any longer.
+bool GjkCheck::begins_again(const recorded::SimplexReduced& e) {
+  if (!c_.inferred || !reported_ || simplex_.empty() || e.region.empty() || std::any_of(e.region.begin(), e.region.end(), [&](int n) { return contains(simplex_, n); })) return false;
+  const std::vector<AnyVector> kept = points(e.region), last = points(simplex_);
+  if (kept.size() != e.region.size() || last.empty()) return false;
+  const double before = nearest_point(last).v.norm(), now = nearest_point(kept).v.norm();
+  if (now <= before + c_.tolerance) return false;
+  c_.suspect("wrong-region", "Of the simplex before, " + list_of(simplex_) + ", nothing was kept, though it comes as near as " + text_of(before) + " to the origin; " + list_of(e.region) + " is " + text_of(now) +
+                                 " from it. The search is taken to begin again. Where it does not, the usual cause is a simplex that is cleared.");
+  simplex_.clear(), pending_.clear(), directions_.forget(), regions_.clear(), last_region_.clear(), last_direction_ = AnyVector();
+  repeated_from_.reset(), repeated_at_.reset(), stuck_ = 0;  // the planes have proven what they have
+  return true;
+}
+
 void GjkCheck::operator()(const recorded::SimplexReduced& e) {
   for (const auto* list : {&e.before, &e.region}) points(*list);
+  const bool again = begins_again(e);
   std::vector<int> sorted = e.region;
   std::sort(sorted.begin(), sorted.end());
   const std::vector<AnyVector> w = points(e.region);
@@ -263,6 +280,8 @@ void GjkCheck::operator()(const recorded::SimplexReduced& e) {
   if (static_cast<int>(e.region.size()) > c_.dimension + 1)
     c_.find("simplex-too-large", "The simplex " + list_of(e.region) + " has " + std::to_string(e.region.size()) + " vertices; in " + std::to_string(c_.dimension) + "D it has at most " + std::to_string(c_.dimension + 1) +
                                      ". The usual cause is a new vertex that is added before the old simplex was reduced.");
+  else if (!twice && again)
+    check_closest(e);
   else if (!twice)
     check_region(e), check_closest(e);
   check_cycle(e.region);
@@ -271,8 +290,27 @@ void GjkCheck::operator()(const recorded::SimplexReduced& e) {
   pending_.clear();
 }
 
+/// What was asked for since the last simplex, and with it comes nearer.
+void GjkCheck::note_unkept(double v, const std::vector<int>& all) {
+  if (pending_.empty() || all.size() > 6) return;
+  const NearestPoint best = nearest_point(points(all));
+  if (best.v.norm() >= v - std::max(c_.tolerance, 1e-7 * c_.size)) return;
+  std::vector<int> right;
+  for (const int i : best.subset) right.push_back(all[static_cast<std::size_t>(i)]);
+  c_.unkept = "Of " + list_of(pending_) + ", asked for since, nothing was kept, though the part " + list_of(right) + " comes as near as " + text_of(best.v.norm()) +
+              ": look at how the simplex was reduced after that (and report it, too, if you give it up).";
+}
+
 void GjkCheck::operator()(const recorded::GjkEnded& e) {
   std::vector<int> last = simplex_;
+  if (reported_ && (e.status == GjkStatus::separated || e.status == GjkStatus::converged))
+    if (const std::vector<AnyVector> w = points(last); !w.empty()) {
+      std::vector<int> all = pending_;
+      all.insert(all.end(), last.begin(), last.end());
+      const double v = nearest_point(w).v.norm();
+      note_unkept(v, all);
+      c_.last_is_nearest = c_.has_supports && c_.inferred && std::abs(v - c_.radius - *c_.reference().signed_distance) <= c_.answer_tolerance();
+    }
   if (!reported_ || (e.status != GjkStatus::enclosed && e.status != GjkStatus::touching && e.status != GjkStatus::converged)) return;
   const std::vector<AnyVector> w = points(last);
   if (w.empty()) return;
@@ -285,11 +323,7 @@ void GjkCheck::operator()(const recorded::GjkEnded& e) {
     const double claimed = v - c_.radius;
     if (v <= limit || !c_.has_supports || gap <= c_.stop * std::max(v, c_.size) || std::abs(claimed - *c_.reference().signed_distance) <= c_.answer_tolerance()) return;
     std::string cause = "The usual cause is a tolerance compared with a squared length, or with a length that was not normalised, or a limit on iterations taken for convergence.";
-    if (const NearestPoint best = nearest_point(points(all)); all.size() <= 6 && best.v.norm() < v - limit) {
-      std::vector<int> right;
-      for (const int i : best.subset) right.push_back(all[static_cast<std::size_t>(i)]);
-      cause = "Of " + list_of(pending_) + ", asked for since, nothing was kept, though the part " + list_of(right) + " comes as near as " + text_of(best.v.norm()) + ": look at how the simplex was reduced after that (and report it, too, if you give it up).";
-    }
+    if (!c_.unkept.empty()) cause = c_.unkept;
     c_.find("stopped-early", "GJK ended with its bounds " + text_of(best_plane_ - c_.radius) + " and " + text_of(v - c_.radius) + " of the distance still " + text_of(gap) + " apart: there is a nearer point. " + cause);
   } else if (v > limit) {
     if (nearest_point(points(all)).v.norm() > limit)

@@ -33,7 +33,8 @@ struct Judge {
     const bool right_answer = r.intersecting == (sd <= 0), asked = best_plane > -1e300;
     // Who asks no support at all may know by other means; who does, goes by what the supports prove.
     if (!r.intersecting && asked && (!right_answer || (c.has_supports && !limited && best_plane - c.radius < -limit)))
-      c.find("unjustified-separation", "The bodies are called apart, but no support proves it: the best plane leaves " + text_of(best_plane - c.radius) + " between them, and it takes a positive number. The usual cause is the wrong sign in the test whether the support passed the origin.");
+      c.find("unjustified-separation", "The bodies are called apart, but no support proves it: the best plane leaves " + text_of(best_plane - c.radius) + " between them, and it takes a positive number. " +
+                                             (c.unkept.empty() ? "The usual cause is the wrong sign in the test whether the support passed the origin." : c.unkept));
     if (right_answer) return;
     c.find("wrong-answer", std::string("The bodies are called ") + (r.intersecting ? "overlapping" : "apart") + ", but they are " + (sd <= 0 ? "overlapping, " + text_of(-sd) + " deep" : "apart by " + text_of(sd)) + ".");
   }

@@ -42,6 +42,12 @@ AnyVector loose_vector(const Json& json, const Place& place, int dimension) {
   return v;
 }
 
+std::string list_text(const std::vector<int>& numbers) {
+  std::string list;
+  for (const int n : numbers) list += (list.empty() ? "[" : ", ") + std::to_string(n);
+  return list + "]";
+}
+
 std::string text_of(const AnyVector& v) {
   std::string out;
   append_vector(out, v);
@@ -50,8 +56,8 @@ std::string text_of(const AnyVector& v) {
 
 }  // namespace
 
-SolverRecorder::SolverRecorder(const SceneFile& scene, const Settings& settings)
-    : a_(scene.scene.bodies[0], scene.scene.dimension), b_(scene.scene.bodies[1], scene.scene.dimension), dimension_(scene.scene.dimension) {
+SolverRecorder::SolverRecorder(const SceneFile& scene, const Settings& settings, int max_supports)
+    : a_(scene.scene.bodies[0], scene.scene.dimension), b_(scene.scene.bodies[1], scene.scene.dimension), dimension_(scene.scene.dimension), max_supports_(max_supports) {
   recording_.generator = "a solver under " + generator_name();
   recording_.scene = scene;
   recording_.settings = settings;
@@ -119,6 +125,10 @@ std::string SolverRecorder::support(const Json& json) {
   const auto found = json.find("direction");
   if (found == json.end()) reject(at, "bad-message", "is missing");
   const AnyVector d = loose_vector(*found, at, dimension_);
+  if (supports_ == max_supports_) {
+    asks_too_much_ = true;
+    return {};
+  }
   begin(d);
   check_announced(d);
   const AnyVector a = a_(d, true), b = b_(-d, true), w = a - b;
@@ -137,7 +147,8 @@ std::string SolverRecorder::support(const Json& json) {
 }
 
 std::vector<int> SolverRecorder::vertex_list(const Json& json, const Place& place) const {
-  if (!json.is_array() || json.empty()) reject(place, "bad-message", "must be a list of vertex numbers");
+  if (!json.is_array()) reject(place, "bad-message", "must be a list of vertex numbers");
+  if (json.empty()) reject(place, "bad-message", "is empty: nothing was kept, but a part of every simplex is nearest the origin, at the least a vertex");
   std::vector<int> list;
   for (std::size_t i = 0; i < json.size(); ++i) list.push_back(read_integer(json[i], Place(place, i), 0, 1000000000));
   return list;
@@ -214,23 +225,24 @@ void SolverRecorder::polytope(const Json& json) {
   end_gjk(GjkStatus::enclosed);
   std::set<std::set<int>> wanted;
   std::vector<recorded::Face> added;
+  std::string twice;
   for (std::size_t i = 0; i < json["faces"].size(); ++i) {
     const std::vector<int> vertices = face_vertices(json["faces"][i], Place(at, i));
     const std::set<int> key(vertices.begin(), vertices.end());
-    if (!wanted.insert(key).second && epa_) {
-      std::string list;
-      for (const int v : vertices) list += (list.empty() ? "[" : ", ") + std::to_string(v);
-      recording_.events.push_back(recorded::Warning{"open-polytope", "The polytope lists the face " + list + "] twice: its edges then belong to four faces instead of 2. The usual cause is a face that is added to the list before the one it replaces is taken out, or an edge of the horizon that is there twice."});
-      continue;
-    }
-    if (!faces_.contains(key)) added.push_back(make_face(vertices));
+    if (!wanted.insert(key).second) twice = list_text(vertices);
+    else if (!faces_.contains(key)) added.push_back(make_face(vertices));
   }
+  if (!twice.empty() && (epa_ || wanted.size() > 1))  // one face and its back are a flat start
+    recording_.events.push_back(recorded::Warning{"open-polytope", "The polytope lists the face " + twice + " twice: its edges then belong to four faces instead of 2. The usual cause is " +
+                                                                       (epa_ ? "a face that is added to the list before the one it replaces is taken out, or an edge of the horizon that is there twice." : "a table of the first faces in which one stands for another.")});
   grow(wanted, std::move(added));
 }
 
 /// The difference to the polytope before, as an event.
 void SolverRecorder::grow(const std::set<std::set<int>>& wanted, std::vector<recorded::Face> added) {
   recorded::PolytopeGrown e;
+  std::set<int> old;
+  for (const auto& [key, face] : faces_) old.insert(key.begin(), key.end());
   std::map<std::array<int, 2>, int> rim;
   for (auto it = faces_.begin(); it != faces_.end();) {
     if (wanted.contains(it->first)) {
@@ -243,6 +255,7 @@ void SolverRecorder::grow(const std::set<std::set<int>>& wanted, std::vector<rec
       const int p = v[i], q = v[(i + 1) % v.size()];
       ++rim[{std::min(p, q), std::max(p, q)}];
     }
+    gone_[it->first] = recording_.events.size();
     it = faces_.erase(it);
   }
   orient(added);
@@ -258,7 +271,12 @@ void SolverRecorder::grow(const std::set<std::set<int>>& wanted, std::vector<rec
   for (const auto& [edge, count] : rim)
     if (count == 1) e.horizon.push_back(edge);
   e.iteration = epa_iteration_;
-  e.vertex = std::max(0, supports_ - 1);
+  // The one that the new faces have and no face had; the newest support may be another's, where one is asked for every face as it is made.
+  e.vertex = -1;
+  for (const auto& face : added)
+    for (const int v : face.vertices)
+      if (!old.contains(v)) e.vertex = std::max(e.vertex, v);
+  if (e.vertex < 0) e.vertex = std::max(0, supports_ - 1);
   e.added = std::move(added);
   e.lower_bound = e.upper_bound = nan;
   recording_.events.push_back(std::move(e));
@@ -280,6 +298,11 @@ void SolverRecorder::face(const Json& json) {
   recorded::Face face = found != faces_.end() ? found->second : make_face(vertices);
   recorded::FaceChosen e{epa_iteration_, face.face, face.normal, face.distance};
   const bool known = found != faces_.end();
+  if (!known && epa_) {
+    const auto gone = gone_.find(std::set<int>(vertices.begin(), vertices.end()));
+    recording_.events.push_back(recorded::Warning{"wrong-face", "The face chosen, " + list_text(vertices) + ", is none of the polytope: it was " + (gone == gone_.end() ? "never there" : "removed at step " + std::to_string(gone->second)) +
+                                                                  ". The usual cause is an entry of a list or a queue that outlives its face."});
+  }
   if (const auto n = json.find("normal"); n != json.end() && !n->is_null()) {
     e.normal = read_vector(*n, Place(root, "normal"), dimension_);
   }
@@ -311,10 +334,19 @@ void SolverRecorder::result(const Json& json) {
     const Json* value = o.optional(key);
     return value && !value->is_null() ? value : nullptr;
   };
-  if (const Json* x = given("signed_distance")) r.signed_distance = read_number(*x, o.at("signed_distance"));
-  if (const Json* x = given("normal")) r.normal = read_vector(*x, o.at("normal"), dimension_);
-  if (const Json* x = given("witness_a")) r.witness_a = read_vector(*x, o.at("witness_a"), dimension_);
-  if (const Json* x = given("witness_b")) r.witness_b = read_vector(*x, o.at("witness_b"), dimension_);
+  // What is no number is left out, and said: the rest may well tell how it came to that.
+  const auto finite = [&](const char* key, bool is) {
+    if (!is) recording_.events.push_back(recorded::Warning{"bad-message", std::string("The result's ") + key + " is not finite. The usual cause is a division by the length of v, which is zero where the bodies touch, or by the area of a simplex that has none: test it first."});
+    return is;
+  };
+  const auto point = [&](const char* key) -> std::optional<AnyVector> {
+    const Json* x = given(key);
+    if (!x) return std::nullopt;
+    const AnyVector v = loose_vector(*x, o.at(key), dimension_);
+    return finite(key, v.allFinite()) ? std::optional(v) : std::nullopt;
+  };
+  if (const Json* x = given("signed_distance"); x && finite("signed_distance", *x != not_finite)) r.signed_distance = read_number(*x, o.at("signed_distance"));
+  r.normal = point("normal"), r.witness_a = point("witness_a"), r.witness_b = point("witness_b");
   if (recording_.scene.scene.query == Query::intersect) r.signed_distance.reset(), r.normal.reset(), r.witness_a.reset(), r.witness_b.reset();  // not asked for: neither kept nor judged
   const bool measured = r.signed_distance.has_value();
   end_gjk(r.intersecting ? GjkStatus::enclosed : measured ? GjkStatus::converged : GjkStatus::separated);

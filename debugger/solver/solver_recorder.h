@@ -14,7 +14,8 @@ namespace gjkdbg {
 
 class SolverRecorder {
  public:
-  SolverRecorder(const SceneFile& scene, const Settings& settings);
+  /// Takes no more than so many support queries.
+  SolverRecorder(const SceneFile& scene, const Settings& settings, int max_supports);
 
   /// The first line the solver gets.
   std::string scene_message() const;
@@ -22,6 +23,7 @@ class SolverRecorder {
   std::string take(const std::string& line);
   bool done() const { return done_; }
   int supports() const { return supports_; }
+  bool asks_too_much() const { return asks_too_much_; }
   /// Ends the recording without an answer.
   void abort(const std::string& code, const std::string& message);
   /// Beside a result that stands.
@@ -50,12 +52,15 @@ class SolverRecorder {
   WorldSupport a_, b_;
   int dimension_;
   int supports_ = 0, next_face_ = 0, iteration_ = 0, epa_iteration_ = 0;
+  const int max_supports_;
+  bool asks_too_much_ = false;
   bool began_ = false, gjk_ended_ = false, epa_ = false, done_ = false;
   std::map<int, AnyVector> vertices_;
   std::vector<int> simplex_, pending_;
   AnyVector announced_;                   ///< the direction that the last simplex gave for the next support; empty when none
   std::set<std::string> unknown_fields_;  ///< told of already
   std::map<std::set<int>, recorded::Face> faces_;
+  std::map<std::set<int>, std::size_t> gone_;  ///< faces removed, and the step at which they were
   std::optional<recorded::Face> chosen_;
 };
 

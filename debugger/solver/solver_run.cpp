@@ -70,9 +70,10 @@ void talk(SolverProcess& process, SolverRecorder& recorder, const SolverLimits& 
     try {
       reply = recorder.take(line);
     } catch (const Error& e) {
-      return recorder.abort("bad-message", "Not a message of the protocol (" + e.line() + "): " + shortened(line));
+      const std::string hint = line.find('{') != std::string::npos && line.find('}') == std::string::npos ? " A message is one line." : "";
+      return recorder.abort("bad-message", "Not a message of the protocol (" + e.line() + "): " + shortened(line) + hint);
     }
-    if (recorder.supports() > limits.max_supports)
+    if (recorder.asks_too_much())
       return recorder.abort("support-limit", "More than " + std::to_string(limits.max_supports) + " support queries (--max-supports). The usual cause is a stopping test that never holds.");
     if (!reply.empty()) sent = process.write_line(reply, deadline);
   }
@@ -97,7 +98,7 @@ Recording run_solver(const SceneFile& scene, const Settings& settings, const std
   if (scene.scene.motion) throw Error("unsupported-query", "a solver answers scenes that do not move, not \"" + std::string(query_names[static_cast<std::size_t>(scene.scene.query)]) + "\"", "/query");
   for (const Body& body : scene.scene.bodies)
     if (std::holds_alternative<Mesh>(body.shape.geometry)) throw Error("unsupported-shape", "a mesh has no support function; a solver runs on convex shapes", "/bodies");
-  SolverRecorder recorder(scene, settings);
+  SolverRecorder recorder(scene, settings, limits.max_supports);
   SolverProcess process(command, limits.errors);
   talk(process, recorder, limits);
   return std::move(recorder).finish();

@@ -45,6 +45,31 @@ TEST(Invariance, SwappingTheBodies) {
   });
 }
 
+/// Whether the radii reach across the distance is told however coarsely that is asked for.
+TEST(Invariance, YesOrNoAtACoarseTolerance) {
+  RandomScenes random(19);
+  int overlapping = 0, apart = 0;
+  for (int k = 0; k < 4000 && !testing::Test::HasFailure(); ++k) {
+    const auto ellipsoid = [&] { return Shape{Ellipsoid{Eigen::Vector3d(random.uniform(0.3, 2), random.uniform(0.3, 2), random.uniform(0.3, 2))}, random.uniform(0, 1)}; };
+    Scene scene;
+    scene.dimension = 3;
+    for (const char* name : {"A", "B"}) scene.bodies.push_back({name, ellipsoid(), identity_pose(3)});
+    scene.bodies[1].pose.position = Eigen::Vector3d(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3));
+    scene.query = Query::penetration;
+    const Result r = answer(scene);
+    if (std::abs(*r.signed_distance) <= 1e-6) continue;
+    ++(r.intersecting ? overlapping : apart);
+    Method coarse;
+    coarse.tolerance = 0.3;
+    for (const Query query : {Query::intersect, Query::distance, Query::penetration}) {
+      scene.query = query;
+      EXPECT_EQ(answer(scene, coarse).intersecting, r.intersecting) << "scene " << k << ", query " << static_cast<int>(query) << ", " << *r.signed_distance;
+    }
+  }
+  EXPECT_GT(overlapping, 1000);
+  EXPECT_GT(apart, 1000);
+}
+
 TEST(Invariance, PermutingTheVertices) {
   for_random_scenes(12, [](RandomScenes& random, Scene scene) {
     const Result r = answer(scene);
