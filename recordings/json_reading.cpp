@@ -292,6 +292,13 @@ const Json& ObjectReader::required(std::string_view key) {
 }
 
 void ObjectReader::finish() {
+  for (const char* text : {"name", "description", "source"})
+    if (const auto found = json_.find(text); found != json_.end()) read_string(*found, at(text));
+  if (const auto tags = json_.find("tags"); tags != json_.end()) {
+    const Place list = at("tags");
+    if (!tags->is_array()) reject(list, "wrong-type", "must be an array of strings");
+    for (std::size_t i = 0; i < tags->size(); ++i) read_string((*tags)[i], Place(list, i));
+  }
   for (const auto& [key, value] : json_.items()) {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
     const std::string near = nearest_name(key, known_);

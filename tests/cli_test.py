@@ -352,6 +352,10 @@ class Program(unittest.TestCase):
         self.assertEqual(run("render", self.scene, "--step", 3, "-o", svg).returncode, 0)
         root = xml.etree.ElementTree.fromstring(svg.read_text())
         self.assertGreater(len(list(root.iter("{http://www.w3.org/2000/svg}line"))), 20)
+        by_sat = self.path / "sat.svg"
+        self.assertEqual(run("render", self.scene, "--step", 3, "--method", "sat", "-o", by_sat).returncode, 0)
+        self.assertIn("Support along an axis", by_sat.read_text())
+        self.refused(run("render", recording, "--method", "sat", "-o", by_sat), "/format")
         gif = self.path / "replay.gif"
         self.assertEqual(run("render", "2d-deep", "--all", "-o", gif, "--width", 320, "--height", 200).returncode, 0)
         self.assertEqual(gif.read_bytes()[:6], b"GIF89a")

@@ -120,6 +120,10 @@ void MethodFlags::override_in(Method& method) const {
   }
 }
 
+bool MethodFlags::given() const {
+  return name_ || closest_point_ || penetration_ || scalar_ || stopping_ || acceleration_ || start_ || tolerance_ || max_iterations_ || !start_from_.empty() || !initial_direction_.empty();
+}
+
 Settings MethodFlags::resolve(const SceneFile& scene, const std::string& source) const {
   Method method = scene.method;
   override_in(method);

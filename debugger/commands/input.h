@@ -39,6 +39,7 @@ class MethodFlags {
  public:
   void add_to(CLI::App& app);
   void override_in(Method& method) const;
+  bool given() const;  ///< whether any is
 
   /// The settings for a scene read from `source`; throws Error that names the flag, or the place in the file.
   Settings resolve(const SceneFile& scene, const std::string& source) const;

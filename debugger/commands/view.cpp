@@ -210,12 +210,15 @@ struct Render {
   bool all = false, light = false, window = false;
   int width = 1280, height = 720;
   float scale = 1;
+  MethodFlags flags;
 
   int run() const {
-    const std::string path = scene_path(file).string();
+    std::string path = scene_path(file).string();
     if (all && step != "last") throw Error("bad-usage", "--all shows every step", "--step " + step);
     if (all && !output.ends_with(".gif")) throw Error("unknown-format", "--all writes .gif", "-o " + output);
     if (window && output.ends_with(".svg")) throw Error("unknown-format", "--window writes .png, or with --all .gif", "-o " + output);
+    std::optional<TemporaryFolder> folder;
+    if (flags.given()) path = by_flags(path, folder.emplace().path());
     if (output.ends_with(".svg")) return svg(path);
     Headless host(width, height, scale, read_gallery(gallery_directory()));
     App& app = host.app();
@@ -231,6 +234,15 @@ struct Render {
   }
 
  private:
+  /// The recording of a scene by the method asked for, kept in a folder.
+  std::string by_flags(const std::string& path, const std::string& in) const {
+    const SceneFile scene = read_scene(path);
+    std::string name = std::filesystem::path(path).filename().string();
+    const std::string recording = in + "/" + name.substr(0, name.find('.')) + ".recording.json";
+    write_output(recording, recording_to_text(record(scene, flags.resolve(scene, path))));
+    return recording;
+  }
+
   /// From 0, as in the recording's list of events; "last", or negative from the end.
   std::size_t step_number(std::size_t count) const {
     if (step == "last") return count - 1;
@@ -322,6 +334,7 @@ void add_render(CLI::App& app, Status& status) {
   command->add_option("--width", render->width, "pixels")->check(between(64, 8192));
   command->add_option("--height", render->height, "pixels")->check(between(64, 8192));
   command->add_option("--scale", render->scale, "size of text and marks")->check(between(0.5, 4.0));
+  render->flags.add_to(*command);
   command->callback([render, &status] { status = render->run(); });
 }
 

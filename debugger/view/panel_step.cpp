@@ -218,7 +218,9 @@ void vertex(App& app) {
   number_row(app, "w = a - b", v.w, theme.palette.text, v.event);
   number_row(app, "a", v.a, theme.palette.body_a, v.event);
   number_row(app, "b", v.b, theme.palette.body_b, v.event);
-  if (ImGui::SmallButton(("from step " + std::to_string(v.event)).c_str())) app.session.go_to(v.event);
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {app.theme.px(8), app.theme.px(2)});
+  if (ImGui::Button(("from step " + std::to_string(v.event)).c_str())) app.session.go_to(v.event);
+  ImGui::PopStyleVar();
 }
 
 /// Of a cast. What the digits on show would not tell from the time before it has the difference written out.

@@ -249,6 +249,8 @@ TEST(BadScenes, AreRefusedWithTheirPlace) {
   EXPECT_EQ(error_of(scene_with(R"({"type":"sphere","radius":null})")), "/bodies/0/shape/radius wrong-type");
   EXPECT_EQ(error_of(scene_with(R"({"type":"sphere","radus":1})")), "/bodies/0/shape/radius missing-field");
   EXPECT_EQ(error_of(scene_with(R"({"type":"sphere","radius":1,"colour":1})")), "/bodies/0/shape/colour unknown-field");
+  EXPECT_EQ(error_of(scene_with(R"({"type":"sphere","radius":1,"source":5})")), "/bodies/0/shape/source wrong-type");
+  EXPECT_EQ(error_of(scene_with(R"({"type":"sphere","radius":1,"tags":["a",7]})")), "/bodies/0/shape/tags/1 wrong-type");
   EXPECT_EQ(error_of(scene_with(R"({"type":"shpere","radius":1})")), "/bodies/0/shape/type unknown-type");
   EXPECT_EQ(error_of(scene_with(R"({"type":"polygon","points":[[0,0],[1,0],[0,1]]})")), "/bodies/0/shape/type wrong-dimension");
   EXPECT_EQ(error_of(scene_with(R"({"type":"hull","points":[]})")), "/bodies/0/shape/points no-points");
