@@ -184,6 +184,7 @@ class GjkCheck {
   void check_repetition(const AnyVector& direction);
   bool begins_again(const recorded::SimplexReduced& e);
   void note_unkept(double v, const std::vector<int>& all);
+  void check_returned(double v);
   bool heuristic_region(const std::vector<int>& before, const std::vector<int>& region, const AnyVector& v);
 
   CheckContext& c_;

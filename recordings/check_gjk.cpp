@@ -248,15 +248,17 @@ void GjkCheck::check_cycle(const std::vector<int>& region) {
 }
 
 /// Some programs search for yes or no first, and then once more, from the beginning, for the distance: with vertices of which the last simplex had none,
-/// and farther from the origin than it was. Nothing of the search before counts any longer.
+/// though with these they would come nearer. Nothing of the search before counts any longer.
 bool GjkCheck::begins_again(const recorded::SimplexReduced& e) {
   if (!c_.inferred || !reported_ || simplex_.empty() || e.region.empty() || std::any_of(e.region.begin(), e.region.end(), [&](int n) { return contains(simplex_, n); })) return false;
-  const std::vector<AnyVector> kept = points(e.region), last = points(simplex_);
-  if (kept.size() != e.region.size() || last.empty()) return false;
-  const double before = nearest_point(last).v.norm(), now = nearest_point(kept).v.norm();
-  if (now <= before + c_.tolerance) return false;
-  c_.suspect("wrong-region", "Of the simplex before, " + list_of(simplex_) + ", nothing was kept, though it comes as near as " + text_of(before) + " to the origin; " + list_of(e.region) + " is " + text_of(now) +
-                                 " from it. The search is taken to begin again. Where it does not, the usual cause is a simplex that is cleared.");
+  std::vector<int> hand = pending_;
+  hand.insert(hand.end(), simplex_.begin(), simplex_.end());
+  const std::vector<AnyVector> kept = points(e.region), all = points(hand);
+  if (kept.size() != e.region.size() || all.empty() || all.size() > 6) return false;
+  const double best = nearest_point(all).v.norm(), now = nearest_point(kept).v.norm();
+  if (now <= best + c_.tolerance) return false;
+  c_.suspect("wrong-region", "Of the simplex before, " + list_of(simplex_) + ", nothing was kept: " + list_of(e.region) + " is " + text_of(now) + " from the origin, " + list_of(hand) + " comes as near as " + text_of(best) +
+                                 ". The search is taken to begin again. Where it does not, the usual cause is a simplex that is cleared, or a region test with a flipped sign.");
   simplex_.clear(), pending_.clear(), directions_.forget(), regions_.clear(), last_region_.clear(), last_direction_ = AnyVector();
   repeated_from_.reset(), repeated_at_.reset(), stuck_ = 0;  // the planes have proven what they have
   return true;
@@ -301,6 +303,18 @@ void GjkCheck::note_unkept(double v, const std::vector<int>& all) {
               ": look at how the simplex was reduced after that (and report it, too, if you give it up).";
 }
 
+/// A distance between what the supports have proven and what the simplex comes to. What is there may be off, where bounds meet slowly, but not what is returned of it.
+void GjkCheck::check_returned(double v) {
+  const Result& r = c_.recording.result;
+  if (!c_.inferred || !c_.has_supports || !r.signed_distance || r.intersecting) return;
+  const double slack = std::max(c_.tolerance, 1e-7 * c_.size), given = *r.signed_distance;
+  if (given >= best_plane_ - c_.radius - slack && given <= v - c_.radius + slack) return;
+  const Result& right = c_.reference();
+  if (std::abs(given - *right.signed_distance) <= 10 * slack + *right.upper_bound - *right.lower_bound) return;
+  c_.find("wrong-distance", "signed_distance is " + text_of(given) + ", but the simplex kept last, " + list_of(simplex_) + ", comes to " + text_of(v - c_.radius) + ", and a support plane leaves " + text_of(best_plane_ - c_.radius) +
+                                " between the bodies: the distance is between these. What is returned is not what was found.");
+}
+
 void GjkCheck::operator()(const recorded::GjkEnded& e) {
   std::vector<int> last = simplex_;
   if (reported_ && (e.status == GjkStatus::separated || e.status == GjkStatus::converged))
@@ -309,6 +323,7 @@ void GjkCheck::operator()(const recorded::GjkEnded& e) {
       all.insert(all.end(), last.begin(), last.end());
       const double v = nearest_point(w).v.norm();
       note_unkept(v, all);
+      if (e.status == GjkStatus::converged) check_returned(v);
       c_.last_is_nearest = c_.has_supports && c_.inferred && std::abs(v - c_.radius - *c_.reference().signed_distance) <= c_.answer_tolerance();
     }
   if (!reported_ || (e.status != GjkStatus::enclosed && e.status != GjkStatus::touching && e.status != GjkStatus::converged)) return;

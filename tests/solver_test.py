@@ -127,6 +127,15 @@ class Solver(unittest.TestCase):
             self.assertEqual([f["code"] for f in self.run_kit("box-box-apart", f"/usr/bin/python3 {path}")][:1], ["few-digits"])
             self.assertEqual(self.run_kit("box-box-apart", f"/usr/bin/python3 {path}", "--scalar", "float"), [])
 
+    def test_what_is_returned_is_what_was_found(self):
+        """A little off, where bounds of round bodies may be farther apart."""
+        said = "    print(json.dumps(message), flush=True)"
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "off.py")
+            path.write_text(SOURCE.replace(said, "    if message.get('signed_distance'):\n        message['signed_distance'] *= 1.0005\n" + said, 1))
+            for scene, code in (("cylinder-cuboid", "wrong-depth"), ("cone-box-apex", "wrong-depth"), ("pair-capsule-cone", "wrong-distance"), ("2d-ellipses-apart", "wrong-distance")):
+                self.assertEqual([f["code"] for f in self.run_kit(scene, f"/usr/bin/python3 {path}")][:1], [code], scene)
+
     def test_no_more_supports_than_allowed(self):
         with tempfile.TemporaryDirectory() as folder:
             recording = pathlib.Path(folder, "r.json")
