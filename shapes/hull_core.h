@@ -1,9 +1,8 @@
 // The support mapping of a convex polytope with many vertices: a table of directions.
 //
-// A cube around the origin is cut into cells, about four times as many as the hull has vertices (but no more than 100,000), and every cell knows the
-// vertices that are highest along one of its directions: two or three, one in 25 has more than four. A query looks at those and nothing else, however many
-// vertices there are. A cell keeps their numbers only: what the support of a large hull waits for is memory, and of a thousand pairs met in turn a table
-// with the vertices themselves in every cell is in no cache. Vertices of cells that are next to each other are so too, in memory.
+// A cube around the origin is cut into cells, about twice as many as the hull has vertices (but no more than 100,000), and every cell keeps the vertices
+// that are highest along one of its directions: three or four, side by side in memory, which is what the support of a large hull waits for. A query looks
+// at those and nothing else, however many vertices there are.
 //
 //       +---+---+---+        Vertex v is highest along d if (u - v) . d <= 0 for each of its neighbours u: a half of the plane the
 //       |   |   | d |        cell lies in. v belongs to the cell if these halves leave something of it: either one of its corners,
@@ -19,7 +18,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <span>
 #include <utility>
@@ -40,10 +38,10 @@ class HullCore {
     for (const V& v : vertices) center_ += v, low = low.cwiseMin(v), high = high.cwiseMax(v);
     center_ /= static_cast<S>(vertices.size());
     box_ = (high - low).cwiseMax((high - low).maxCoeff() * std::numeric_limits<S>::epsilon());  // in float a thin hull may have no thickness left
-    across_ = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(vertices.size()) / 1.5)), 1, 128);
+    across_ = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(vertices.size()) / 3)), 1, 128);
     const int cells = 6 * across_ * across_;
     std::vector<int> spread{0};
-    std::vector<int> met(vertices.size(), -1), numbers(vertices.size(), -1);
+    std::vector<int> met(vertices.size(), -1);
     cells_.resize(static_cast<std::size_t>(cells));
     for (int cell = 0; cell < cells; ++cell) {
       spread.assign(1, climb(vertices, hull, spread.front(), direction(cell, S(0.5), S(0.5))));
@@ -52,50 +50,26 @@ class HullCore {
       for (std::size_t i = 0; i < spread.size(); ++i)
         for (const int other : around(hull, spread[i]))
           if (std::exchange(met[static_cast<std::size_t>(other)], cell) != cell && highest_somewhere(vertices, hull, other, corners)) spread.push_back(other);
-      for (const int i : spread)
-        if (int& number = numbers[static_cast<std::size_t>(i)]; number < 0) number = static_cast<int>(vertices_.size()), vertices_.push_back(vertices[static_cast<std::size_t>(i)]);
-      keep(static_cast<std::size_t>(cell), numbers, spread);
+      keep(static_cast<std::size_t>(cell), vertices, spread);
     }
   }
 
   V center() const { return center_; }
-  std::size_t bytes() const { return sizeof(Cell) * cells_.size() + sizeof(V) * vertices_.size(); }  ///< that a query may look at
+  std::size_t candidates() const { return Cell::places * cells_.size(); }  ///< places for them, in all cells
 
-  /// Which vertex is highest, and in which cell d lies, is nothing a processor can guess: no comparison is a branch.
   V support(const V& d) const {
-    const Cell& cell = cells_[cell_of(box_.cwiseProduct(d))];
-    if (goes_on(cell)) [[unlikely]] return highest_of_many(cell, d);
-    const std::uint32_t i = cell[0], j = cell[1], k = cell[2], l = cell[3];
-    const S height_i = height(i, d), height_j = height(j, d), height_k = height(k, d), height_l = height(l, d);
-    const std::uint32_t of_first = chosen(height_j > height_i, j, i), of_last = chosen(height_l > height_k, l, k);
-    return vertices_[chosen(std::max(height_k, height_l) > std::max(height_i, height_j), of_last, of_first)];
+    const Cell* cell = cells_.data() + cell_of(box_.cwiseProduct(d));
+    Highest highest = cell->highest(d);
+    V best = cell->vertex(highest.place);
+    while (cell->next >= 0) {
+      cell = cells_.data() + cell->next;
+      const Highest other = cell->highest(d);
+      if (other.height > highest.height) highest = other, best = cell->vertex(other.place);
+    }
+    return best;
   }
 
  private:
-  /// Numbers of vertices; where there are fewer than four, the last is there again. Of more, three are here, and instead of the fourth, with the
-  /// highest bit set, the number of the cell with the others.
-  static constexpr std::size_t places = 4;
-  static constexpr std::uint32_t on = std::uint32_t{1} << 31;
-  struct alignas(16) Cell : std::array<std::uint32_t, places> {};
-  static bool goes_on(const Cell& cell) { return cell[3] >= on; }
-
-  S height(std::uint32_t i, const V& d) const {
-    const V& v = vertices_[i];
-    return v[0] * d[0] + v[1] * d[1] + v[2] * d[2];
-  }
-  static std::uint32_t chosen(bool which, std::uint32_t yes, std::uint32_t no) { return no ^ ((yes ^ no) & -static_cast<std::uint32_t>(which)); }
-
-  [[gnu::noinline]] V highest_of_many(const Cell& first, const V& d) const {
-    std::uint32_t best = first[0];
-    const auto offer = [&](std::uint32_t i) {
-      if (height(i, d) > height(best, d)) best = i;
-    };
-    const Cell* cell = &first;
-    for (; goes_on(*cell); cell = &cells_[(*cell)[3] - on]) offer((*cell)[0]), offer((*cell)[1]), offer((*cell)[2]);
-    for (const std::uint32_t i : *cell) offer(i);
-    return vertices_[best];
-  }
-
   static std::span<const int> around(const ConvexHull& hull, int vertex) {
     const auto i = static_cast<std::size_t>(vertex);
     return std::span(hull.neighbours).subspan(static_cast<std::size_t>(hull.first_neighbour[i]), static_cast<std::size_t>(hull.first_neighbour[i + 1] - hull.first_neighbour[i]));
@@ -104,7 +78,7 @@ class HullCore {
   /// Where d leaves the cube: its largest component says through which side, the others in which of that side's cells.
   int cell_of(const V& d) const {
     const S x = std::abs(d[0]), y = std::abs(d[1]), z = std::abs(d[2]), xy = std::max(x, y);
-    const int first = y > x, axis = first + (2 - first) * (z > xy);
+    const int first = y > x, axis = first + (2 - first) * (z > xy);  // no branch: which it is, is nothing a processor can guess
     constexpr int after[3] = {1, 2, 0};
     const S most = std::max(xy, z), half = static_cast<S>(across_) / 2, scale = most > 0 ? half / most : S(0);
     const int u = place(d[after[axis]] * scale + half), v = place(d[after[after[axis]]] * scale + half);
@@ -160,12 +134,35 @@ class HullCore {
     return !left.empty();
   }
 
-  void keep(std::size_t cell, std::span<const int> numbers, std::span<const int> highest) {
+  struct Highest {
+    std::size_t place;
+    S height;
+  };
+
+  /// Five vertices, coordinate by coordinate; where there are fewer, the last is there again. Two lines of the cache, in float one.
+  struct alignas(16 * sizeof(S)) Cell {
+    static constexpr std::size_t places = 5;
+    std::array<S, places> x, y, z;
+    int next = -1;  ///< >= 0: where there are more
+
+    static std::size_t chosen(bool which, std::size_t yes, std::size_t no) { return no ^ ((yes ^ no) & -static_cast<std::size_t>(which)); }  ///< no branch
+    V vertex(std::size_t i) const { return {x[i], y[i], z[i]}; }
+    void set(std::size_t i, const V& v) { x[i] = v[0], y[i] = v[1], z[i] = v[2]; }
+    Highest highest(const V& d) const {
+      std::array<S, places> height;
+      for (std::size_t i = 0; i < places; ++i) height[i] = x[i] * d[0] + y[i] * d[1] + z[i] * d[2];
+      const S low = std::max(height[1], height[0]), high = std::max(height[3], height[2]), four = std::max(high, low);
+      const std::size_t of_low = height[1] > height[0], of_high = 2 + (height[3] > height[2]);
+      return {chosen(height[4] > four, 4, chosen(high > low, of_high, of_low)), std::max(height[4], four)};
+    }
+  };
+
+  void keep(std::size_t cell, const std::vector<V>& vertices, std::span<const int> highest) {
     for (;;) {
-      for (std::size_t i = 0; i < places; ++i) cells_[cell][i] = static_cast<std::uint32_t>(numbers[static_cast<std::size_t>(highest[std::min(i, highest.size() - 1)])]);
-      if (highest.size() <= places) return;
-      highest = highest.subspan(places - 1);
-      cells_[cell][3] = on + static_cast<std::uint32_t>(cells_.size());
+      for (std::size_t i = 0; i < Cell::places; ++i) cells_[cell].set(i, vertices[static_cast<std::size_t>(highest[std::min(i, highest.size() - 1)])]);
+      if (highest.size() <= Cell::places) return;
+      highest = highest.subspan(Cell::places);
+      cells_[cell].next = static_cast<int>(cells_.size());
       cell = cells_.size();
       cells_.emplace_back();
     }
@@ -174,7 +171,6 @@ class HullCore {
   V center_ = V::Zero(), box_;
   int across_;
   std::vector<Cell> cells_;
-  std::vector<V> vertices_;  ///< as the cells come by them
 };
 
 }  // namespace gjkdbg
