@@ -294,16 +294,19 @@ const Json& ObjectReader::required(std::string_view key) {
 void ObjectReader::finish() {
   for (const char* text : {"name", "description", "source"})
     if (const auto found = json_.find(text); found != json_.end()) read_string(*found, at(text));
-  if (const auto tags = json_.find("tags"); tags != json_.end()) {
-    const Place list = at("tags");
-    if (!tags->is_array()) reject(list, "wrong-type", "must be an array of strings");
-    for (std::size_t i = 0; i < tags->size(); ++i) read_string((*tags)[i], Place(list, i));
-  }
+  if (const auto tags = json_.find("tags"); tags != json_.end()) read_tags(*tags, at("tags"));
   for (const auto& [key, value] : json_.items()) {
     if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
     const std::string near = nearest_name(key, known_);
     reject(at(key), "unknown-field", "is not a known field" + (near.empty() ? std::string() : "; did you mean \"" + near + "\"?"));
   }
+}
+
+std::vector<std::string> read_tags(const Json& json, const Place& place) {
+  if (!json.is_array()) reject(place, "wrong-type", "must be an array of strings");
+  std::vector<std::string> tags;
+  for (std::size_t i = 0; i < json.size(); ++i) tags.push_back(read_string(json[i], Place(place, i)));
+  return tags;
 }
 
 double read_number(const Json& json, const Place& place) {

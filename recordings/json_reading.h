@@ -78,6 +78,7 @@ double read_number(const Json& json, const Place& place);
 int read_integer(const Json& json, const Place& place, int low, int high);
 bool read_bool(const Json& json, const Place& place);
 std::string read_string(const Json& json, const Place& place);
+std::vector<std::string> read_tags(const Json& json, const Place& place);
 /// `size` numbers; any count from 1 to 3 when 0.
 AnyVector read_vector(const Json& json, const Place& place, int size);
 /// The index of a word in a list of names.

@@ -53,11 +53,7 @@ class SceneReader {
     text("description", file_.scene.description);
     text("source", file_.scene.source);
     if (const auto it = json.find("id"); it != json.end()) file_.id = it->dump();
-    if (const auto it = json.find("tags"); it != json.end()) {
-      const Place at(place, "tags");
-      if (!it->is_array()) reject(at, "wrong-type", "must be an array of strings");
-      for (std::size_t i = 0; i < it->size(); ++i) file_.scene.tags.push_back(read_string((*it)[i], Place(at, i)));
-    }
+    if (const auto it = json.find("tags"); it != json.end()) file_.scene.tags = read_tags(*it, Place(place, "tags"));
   }
 
   double at_least(ObjectReader& o, const char* key, double value, double low, double high) {
