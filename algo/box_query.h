@@ -32,7 +32,7 @@ struct BoxQuery {
     NearestPoints<D, S> cores = found;
     cores.lower_bound -= floor;
     SatAnswer<D, S>{WorkingFrame<D, S>(pose_a, Vector<D, double>::Zero(), scale), radius_a, radius_b, floor}.set(result, cores);
-    result.status = sat_status_names[static_cast<std::size_t>(found.apart ? SatStatus::separated : SatStatus::overlapping)];
+    result.status = word_of(found.apart ? SatStatus::separated : SatStatus::overlapping);
     result.iterations = found.axes + found.corner, result.support_calls = found.axes;
     return true;
   }

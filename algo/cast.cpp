@@ -147,7 +147,7 @@ class Caster {
     numbers_.next_run();
     supports_ += r.support_calls;
     Gap gap{*r.signed_distance, *r.normal, *r.witness_a, *r.witness_b};
-    gap.known = r.status != gjk_status_names[static_cast<std::size_t>(GjkStatus::iteration_limit)], gap.bound = gap.closing = closing(p, gap.normal);
+    gap.known = r.status != word_of(GjkStatus::iteration_limit), gap.bound = gap.closing = closing(p, gap.normal);
     if (settings_.name != MethodName::root_finding) gap.bound = bound_from_here(p, two, gap);
     if (trace_ && (gap.known || gap.distance <= target_)) (*trace_)(world::CastAdvanced{iterations_, start_ + time, {p.first, p.second}, gap.distance, gap.normal, gap.bound});
     return gap;
@@ -359,7 +359,7 @@ class Caster {
 
   Result result() const {
     Result r;
-    r.status = cast_status_names[static_cast<std::size_t>(first_.status)];
+    r.status = word_of(first_.status);
     r.intersecting = first_.status == CastStatus::hit || first_.status == CastStatus::initially_overlapping;
     r.iterations = iterations_, r.support_calls = supports_;
     r.time = first_.time, r.touching_at = touching_at_;

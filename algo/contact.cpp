@@ -185,7 +185,7 @@ std::vector<ContactPoint> behind(const Points& clipped, const AnyVector& r0, con
 
 std::vector<ContactPoint> contact_points(const Body& a, const Body& b, const Result& result) {
   const std::vector<ContactPoint> witness{{*result.witness_a, *result.witness_b, std::max(0.0, -*result.signed_distance)}};
-  if (result.status == epa_status_names[static_cast<std::size_t>(EpaStatus::iteration_limit)]) return witness;  // the normal is no side's, nor need it come near
+  if (result.status == word_of(EpaStatus::iteration_limit)) return witness;  // the normal is no side's, nor need it come near
   const AnyVector n = *result.normal;
   const auto face_a = flat_feature(a, n), face_b = flat_feature(b, -n);
   if (!face_a || !face_b) return witness;

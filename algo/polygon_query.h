@@ -41,7 +41,7 @@ struct PolygonQuery {
       if (!witnesses) return false;
       answer.set(result, {witnesses->a, witnesses->b, found.normal, -found.depth, -found.depth - floor});
     }
-    result.status = sat_status_names[static_cast<std::size_t>(found.status)];
+    result.status = word_of(found.status);
     result.iterations = found.iterations, result.support_calls = placed.heights;
     return true;
   }

@@ -102,7 +102,7 @@ void choose_fastest(const Scene& scene, const Method& m, Settings& s) {
 bool of_cast(MethodName name) { return name >= MethodName::conservative_advancement; }
 
 void check_motion(const Settings& s, const Scene& scene) {
-  const std::string name(method_names[static_cast<std::size_t>(s.name)]);
+  const std::string name(word_of(s.name));
   if (scene.query != Query::cast && of_cast(s.name)) refuse("method \"" + name + "\" answers only the query \"cast\"", "/method/name");
   if (scene.query == Query::cast && !of_cast(s.name)) refuse("the query \"cast\" is answered by conservative-advancement, ray-cast or root-finding, not \"" + name + "\"", "/method/name");
   if (scene.query == Query::simulate && s.name == MethodName::closed_form) refuse("method \"closed-form\" does not answer the query \"simulate\"", "/method/name");
@@ -110,7 +110,7 @@ void check_motion(const Settings& s, const Scene& scene) {
   if (scene.query == Query::simulate && s.name == MethodName::gjk_boolean) refuse("method \"gjk-boolean\" answers only the query \"intersect\"", "/method/name");
   if (scene.query != Query::cast && scene.query != Query::simulate) return;
   const bool all = scene.motion && std::all_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) { return body.motion.has_value(); });
-  if (!all) throw Error("missing-motion", "the query \"" + std::string(query_names[static_cast<std::size_t>(scene.query)]) + "\" needs bodies that know how they move", "/query");
+  if (!all) throw Error("missing-motion", "the query \"" + std::string(word_of(scene.query)) + "\" needs bodies that know how they move", "/query");
   for (const Body& body : scene.bodies) {
     const bool turns = body.motion && body.motion->angular_velocity.size() > 0 && !body.motion->angular_velocity.isZero(0);
     if (s.name == MethodName::ray_cast && turns) refuse("method \"ray-cast\" takes bodies that do not turn; " + named(scene, body) + " does", "/method/name");
@@ -144,7 +144,7 @@ void check_start(const Settings& s, const Scene& scene) {
   if (s.start != Start::given && s.initial_direction) throw Error("contradiction", "initial_direction goes with start \"given\"", "/method/start");
   if (s.start != Start::previous && !s.initial_simplex.empty()) throw Error("contradiction", "initial_simplex goes with start \"previous\"", "/method/start");
   if (s.start == Start::previous && !keeps_simplex(s.name))
-    refuse("start \"previous\" is GJK's; method \"" + std::string(method_names[static_cast<std::size_t>(s.name)]) + "\" keeps no simplex", "/method/start");
+    refuse("start \"previous\" is GJK's; method \"" + std::string(word_of(s.name)) + "\" keeps no simplex", "/method/start");
   if (s.initial_simplex.empty()) return;
   if (scene.bodies.size() != 2) throw Error("wrong-count", "initial_simplex goes with two bodies; a motion's pairs have their own", "/method/initial_simplex");
   if (static_cast<int>(s.initial_simplex.size()) > scene.dimension + 1)
@@ -200,7 +200,7 @@ Settings resolve_settings(const Method& method, const Scene& scene) {
   if (s.name == MethodName::closed_form) check_segments(scene);
   if (s.name == MethodName::projections) check_projections(scene);
   if (scene.query != Query::cast && scene.query != Query::simulate && scene.bodies.size() != 2)
-    throw Error("wrong-count", "the query \"" + std::string(query_names[static_cast<std::size_t>(scene.query)]) + "\" takes two bodies, not " + std::to_string(scene.bodies.size()), "/bodies");
+    throw Error("wrong-count", "the query \"" + std::string(word_of(scene.query)) + "\" takes two bodies, not " + std::to_string(scene.bodies.size()), "/bodies");
   check_motion(s, scene);
   check_numbers(s, scene.dimension);
   check_start(s, scene);

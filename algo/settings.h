@@ -19,10 +19,12 @@ enum class MethodName {
 };
 inline constexpr std::array<std::string_view, 11> method_names{"gjk", "gjk-boolean", "gjk-accelerated", "mpr", "sat", "closed-form", "projections", "fastest",
                                                               "conservative-advancement", "ray-cast", "root-finding"};
+constexpr std::string_view word_of(MethodName x) { return method_names[static_cast<std::size_t>(x)]; }
 
 /// The sub-algorithm that finds the point of a simplex closest to the origin.
 enum class ClosestPoint { signed_volumes, johnson, voronoi };
 inline constexpr std::array<std::string_view, 3> closest_point_names{"signed-volumes", "johnson", "voronoi"};
+constexpr std::string_view word_of(ClosestPoint x) { return closest_point_names[static_cast<std::size_t>(x)]; }
 
 /// When GJK's loop ends for lack of progress. All but `bounds` are other libraries' rules, with their constants, for comparison.
 enum class Stopping {
@@ -33,14 +35,17 @@ enum class Stopping {
   opengjk,         ///< |v|^2 - v.w <= 1e4 epsilon |v|^2, or < 1e2 epsilon; 25 iterations at most
 };
 inline constexpr std::array<std::string_view, 5> stopping_names{"bounds", "van-den-bergen", "bullet", "jolt", "opengjk"};
+constexpr std::string_view word_of(Stopping x) { return stopping_names[static_cast<std::size_t>(x)]; }
 
 /// How gjk-accelerated comes to its directions: by momentum (Montaut et al. 2024, section IV), or by Newton's method (algo/newton_direction.h).
 enum class Acceleration { nesterov, polyak, newton };
 inline constexpr std::array<std::string_view, 3> acceleration_names{"nesterov", "polyak", "newton"};
+constexpr std::string_view word_of(Acceleration x) { return acceleration_names[static_cast<std::size_t>(x)]; }
 
 /// Who takes over when the cores overlap.
 enum class Penetration { epa, mpr, none };
 inline constexpr std::array<std::string_view, 3> penetration_names{"epa", "mpr", "none"};
+constexpr std::string_view word_of(Penetration x) { return penetration_names[static_cast<std::size_t>(x)]; }
 
 /// Where GJK begins.
 enum class Start {
@@ -49,6 +54,7 @@ enum class Start {
   previous,  ///< the simplex the last run ended with, moved with the bodies: `initial_simplex`, or the pair's own in a motion
 };
 inline constexpr std::array<std::string_view, 3> start_names{"centres", "given", "previous"};
+constexpr std::string_view word_of(Start x) { return start_names[static_cast<std::size_t>(x)]; }
 
 /// A vertex of a simplex: a point of each body, in its own frame.
 struct SimplexPoint {
@@ -57,6 +63,7 @@ struct SimplexPoint {
 
 enum class Scalar { double_precision, float_precision };
 inline constexpr std::array<std::string_view, 2> scalar_names{"double", "float"};
+constexpr std::string_view word_of(Scalar x) { return scalar_names[static_cast<std::size_t>(x)]; }
 
 /// As a scene or a command line gives it; what is not given is filled in by `resolve_settings`.
 struct Method {

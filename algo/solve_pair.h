@@ -77,7 +77,7 @@ class PairSolver {
     }
     run_gjk(options);
     if (warm_) keep_simplex();
-    result_->status = gjk_status_names[static_cast<std::size_t>(gjk_.status)];
+    result_->status = word_of(gjk_.status);
     result_->iterations += gjk_.iterations;
     if (query == Query::intersect) {
       result_->intersecting = overlapping();
@@ -127,7 +127,7 @@ class PairSolver {
     InflatedDifference<Difference> bodies(difference_);
     const auto found = BooleanGjk<InflatedDifference<Difference>, Trace>(bodies, first_direction(), settings_.max_iterations, trace_).run();
     result_->intersecting = found.intersecting();
-    result_->status = gjk_status_names[static_cast<std::size_t>(found.status)];
+    result_->status = word_of(found.status);
     result_->iterations = found.iterations;
   }
 
@@ -157,7 +157,7 @@ class PairSolver {
     options.tolerance = static_cast<S>(settings_.tolerance);
     options.max_iterations = settings_.max_iterations;
     const EpaResult<D, S> found = epa(difference_, gjk_.simplex, options, epa_workspace<D, S>(), trace_);
-    result_->status = epa_status_names[static_cast<std::size_t>(found.status)];
+    result_->status = word_of(found.status);
     result_->iterations += found.iterations;
     set_bounds(-found.upper_bound, -found.lower_bound);
     const bool flat = found.face < 0;
@@ -181,7 +181,7 @@ class PairSolver {
     options.depth = depth;
     options.interior = difference_.center();
     const MprResult<D, S> found = mpr(bodies, options, trace_);
-    result_->status = mpr_status_names[static_cast<std::size_t>(found.status)];
+    result_->status = word_of(found.status);
     result_->iterations += found.iterations;
     return found;
   }
@@ -271,7 +271,7 @@ class PairSolver {
       Projections<Difference, Trace> projections(difference_, tolerance_for(query), settings_.max_iterations, trace_);
       const ProjectionsResult<D, S> found = projections.run(query == Query::intersect ? difference_.radius() : std::numeric_limits<S>::infinity());
       result_->iterations += found.iterations;
-      result_->status = projections_status_names[static_cast<std::size_t>(found.status)];
+      result_->status = word_of(found.status);
       if (found.status == ProjectionsStatus::undecided) return false;
       if (found.status == ProjectionsStatus::separated) return apart_at(found.nearest, query), true;
       result_->intersecting = true;
@@ -295,7 +295,7 @@ class PairSolver {
   /// False: apart, and the distance is asked for, or not decided.
   bool sat_answers(const SatResult<D, S>& found, bool yes_or_no) {
     result_->iterations += found.iterations;
-    result_->status = sat_status_names[static_cast<std::size_t>(found.status)];
+    result_->status = word_of(found.status);
     const bool apart = found.status == SatStatus::separated;
     axis_ = found.normal;
     if (found.status == SatStatus::undecided || (apart && !(yes_or_no && -static_cast<double>(found.depth) > radius_))) return false;

@@ -19,6 +19,7 @@ enum class GjkStatus {
 };
 inline constexpr std::array<std::string_view, 9> gjk_status_names{
     "converged", "separated", "within_radius", "enclosed", "touching", "stalled", "iteration_limit", "aborted", "rule_met"};
+constexpr std::string_view word_of(GjkStatus x) { return gjk_status_names[static_cast<std::size_t>(x)]; }
 
 enum class EpaStatus {
   converged,        ///< the bounds of the depth agree within the tolerance or the rounding floor
@@ -30,6 +31,7 @@ enum class EpaStatus {
 };
 inline constexpr std::array<std::string_view, 6> epa_status_names{"converged", "flat", "separated", "stalled",
                                                                   "iteration_limit", "aborted"};
+constexpr std::string_view word_of(EpaStatus x) { return epa_status_names[static_cast<std::size_t>(x)]; }
 
 enum class MprStatus {
   converged,        ///< the bodies overlap; the portal lies on the boundary, within the tolerance or the rounding floor
@@ -40,6 +42,7 @@ enum class MprStatus {
   iteration_limit,  ///< the portal so far is the answer, if it has passed the origin
 };
 inline constexpr std::array<std::string_view, 6> mpr_status_names{"converged", "overlapping", "separated", "flat", "stalled", "iteration_limit"};
+constexpr std::string_view word_of(MprStatus x) { return mpr_status_names[static_cast<std::size_t>(x)]; }
 
 enum class CastStatus {
   hit,                    ///< they meet; at `time` they are still apart, by no more than the tolerance times the scene's size, or as near as rounding lets it come
@@ -49,6 +52,7 @@ enum class CastStatus {
   iteration_limit,        ///< apart until `time`; no more is known
 };
 inline constexpr std::array<std::string_view, 5> cast_status_names{"hit", "miss", "initially_overlapping", "at_rest", "iteration_limit"};
+constexpr std::string_view word_of(CastStatus x) { return cast_status_names[static_cast<std::size_t>(x)]; }
 
 enum class SatStatus {
   overlapping,  ///< no axis separates; the least overlap is the depth
@@ -56,12 +60,14 @@ enum class SatStatus {
   undecided,    ///< the least overlap or the widest gap is within rounding: touching, or, where the difference is sharp, well apart; GJK decides
 };
 inline constexpr std::array<std::string_view, 3> sat_status_names{"overlapping", "separated", "undecided"};
+constexpr std::string_view word_of(SatStatus x) { return sat_status_names[static_cast<std::size_t>(x)]; }
 
 enum class ClosedFormStatus {
   separated,    ///< of the cores: the formula gives their distance
   overlapping,  ///< the cores share a point, up to rounding
 };
 inline constexpr std::array<std::string_view, 2> closed_form_status_names{"separated", "overlapping"};
+constexpr std::string_view word_of(ClosedFormStatus x) { return closed_form_status_names[static_cast<std::size_t>(x)]; }
 
 enum class ProjectionsStatus {
   separated,    ///< the nearest points of the cores, proven by the plane between them; of a yes or no, what is enough for it
@@ -69,5 +75,6 @@ enum class ProjectionsStatus {
   undecided,    ///< rounding, or the search, came to no proof: GJK goes on
 };
 inline constexpr std::array<std::string_view, 3> projections_status_names{"separated", "overlapping", "undecided"};
+constexpr std::string_view word_of(ProjectionsStatus x) { return projections_status_names[static_cast<std::size_t>(x)]; }
 
 }  // namespace gjkdbg

@@ -21,10 +21,12 @@ namespace gjkdbg {
 /// Where a support query came from.
 enum class Phase { gjk, seed, epa, mpr, sat, cast, projections };
 inline constexpr std::array<std::string_view, 7> phase_names{"gjk", "seed", "epa", "mpr", "sat", "cast", "projections"};
+constexpr std::string_view word_of(Phase x) { return phase_names[static_cast<std::size_t>(x)]; }
 
 /// What a separating axis was taken from.
 enum class AxisSource { face_a, face_b, edge_pair };
 inline constexpr std::array<std::string_view, 3> axis_source_names{"face_a", "face_b", "edge_pair"};
+constexpr std::string_view word_of(AxisSource x) { return axis_source_names[static_cast<std::size_t>(x)]; }
 
 /// A face of the polytope: D vertices, counter-clockwise seen from outside; `normal` is a unit vector pointing
 /// outwards; `distance` is the signed distance of its plane from the origin (negative: the origin is outside).

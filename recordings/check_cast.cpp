@@ -72,6 +72,7 @@ struct CastCheck {
   void advanced(const recorded::CastAdvanced& e) const {
     if (!exists(e.pair)) return c.find("wrong-pair", "The scene has no bodies " + std::to_string(e.pair[0]) + " and " + std::to_string(e.pair[1]) + ".");
     if (e.normal.allFinite() && !e.normal.isZero(0) && std::abs(e.normal.norm() - 1) > 1e-5) return c.find("wrong-normal", "The normal " + text_of(e.normal) + " has length " + text_of(e.normal.norm()) + " instead of 1.");
+    if (!(e.time >= 0 && e.time <= 1)) c.find("wrong-time", "The time " + text_of(e.time) + " of the step is not of the interval, 0 to 1.");
     if (c.recording.settings.name == MethodName::ray_cast || has_mesh(e.pair) || !e.normal.allFinite() || e.normal.isZero(0)) return;
     const double gap = gap_at(e.pair, e.time);
     if (std::abs(e.distance - gap) > limit) c.find("wrong-distance", "At time " + text_of(e.time) + " bodies " + std::to_string(e.pair[0]) + " and " + std::to_string(e.pair[1]) + " are " + text_of(gap) + " apart, not " + text_of(e.distance) + ".");
@@ -80,7 +81,7 @@ struct CastCheck {
 
   void ended(const recorded::CastEnded& e) const {
     const std::vector<int> pair = result.pair ? std::vector<int>{(*result.pair)[0], (*result.pair)[1]} : std::vector<int>();
-    const std::string status(cast_status_names[static_cast<std::size_t>(e.status)]);
+    const std::string status(word_of(e.status));
     if (status != result.status) c.find("wrong-answer", "The cast ended as \"" + status + "\", but the result says \"" + result.status + "\".");
     else if (result.time && std::abs(*result.time - e.time) > 1e-9) c.find("wrong-time", "The cast ended at time " + text_of(e.time) + ", but the result says " + text_of(*result.time) + ".");
     else if (pair != e.pair && e.status != CastStatus::iteration_limit) c.find("wrong-pair", "The pair of the cast's end is not that of the result.");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -140,7 +141,7 @@ class TraceCheck {
   std::string_view open_, last_ended_;  ///< phases
   std::size_t begun_ = 0;
   bool any_ = false, expandable_ = false, motion_open_ = false, moved_ = false;
-  std::set<int> faces_;
+  std::set<int> faces_, polytope_;  ///< of all polytopes; of this one, those removed too
   std::optional<recorded::ClosedFormBegan> segments_;
 };
 
@@ -258,7 +259,9 @@ class RecordCheck {
   void motion();  ///< the counts of a cast's or a simulation's result
 
  private:
+  static constexpr double unknown = std::numeric_limits<double>::infinity(), unknowable = std::numeric_limits<double>::quiet_NaN();  // from the events
   void contradiction(const std::string& message);
+  void theirs(const Event& event);
   template <class E>
   int right_iteration(const E& e) const;
   void leads_on(const AnyVector& direction, const AnyVector& from, const char* what, double slack = 1e-12);
@@ -277,7 +280,7 @@ class RecordCheck {
   void judge(const recorded::FaceChosen& e);
   void judge(const recorded::PolytopeGrown& e);
   void judge(const recorded::EpaEnded& e);
-  void judge(const recorded::MprBegan& e) { from_interior_ = e.interior.norm() > 1000 * c_.digits() * c_.size ? AnyVector(-e.interior) : AnyVector(); }  // near the origin rounding leads elsewhere
+  void judge(const recorded::MprBegan& e);
   void judge(const recorded::PortalFound& e);
   void judge(const recorded::MprEnded& e);
   void judge(const recorded::SatBegan& e);
@@ -309,6 +312,8 @@ class RecordCheck {
   std::vector<int> simplex_, asked_;          ///< GJK's: kept, and asked for since; newest first
   AnyVector towards_, chosen_normal_, from_interior_;  ///< where the next support leads: from GJK's nearest point, across EPA's face, from MPR's inner point
   AnyVector axis_;                            ///< where the last one led
+  AnyVector interior_, newest_w_;             ///< MPR's: towards its inner point, zero where that is next to the origin; the last vertex, empty before any
+  enum class Portal { none, found, found_last } portal_ = Portal::none;  ///< whether there is one, and nothing after it
   double plane_ = 0;                          ///< the farthest its supports have proven the cores apart
   double lower_ = 0, upper_ = 0;              ///< what the phase knows of the bodies' signed distance, infinite where nothing, NaN where the events do not say
   std::map<int, recorded::Face> faces_;       ///< EPA's, those removed too

@@ -40,7 +40,7 @@ constexpr Followers table[] = {
     {"points_projected", {"points_projected", "point_predicted", "support_queried of projections", "projections_ended", "sat_ended"}},
     {"point_predicted", {"points_projected", "projections_ended"}},
     {"support_queried of projections", {"point_predicted", "projections_ended"}},
-    {"closed_form_began", {"lines_solved", "closed_form_ended"}},
+    {"closed_form_began", {"lines_solved"}},
     {"lines_solved", {"closed_form_ended"}},
     {"cast_began", {"support_queried of cast", "cast_ended"}},
     {"support_queried of cast", {"support_queried of cast", "cast_advanced", "cast_ended", "impulse_applied"}},
@@ -74,15 +74,16 @@ OrderCheck::OrderCheck(CheckContext& context) : c_(context), before_(start) {}
 void OrderCheck::operator()(const Event& event) {
   if (foreign(c_.recording)) return;
   std::string step(kind_name(event));
-  if (const auto* e = std::get_if<recorded::SupportQueried>(&event)) step = e->phase == Phase::mpr && !portal_ ? std::string(first_portal) : std::string(a_support) + std::string(phase_names[static_cast<std::size_t>(e->phase)]);
+  if (const auto* e = std::get_if<recorded::SupportQueried>(&event)) step = e->phase == Phase::mpr && !portal_ ? std::string(first_portal) : std::string(a_support) + std::string(word_of(e->phase));
   if (step == "mpr_began") portal_ = false;
   if (step == "portal_found") portal_ = true;
   if (step == "cast_began" || step == "cast_ended") casting_ = step == "cast_began";
   const MethodName method = c_.recording.settings.name;
   const bool unkept = step == before_ && step == "support_queried of gjk" && (method == MethodName::gjk_accelerated || (method == MethodName::gjk_boolean && earlier_ == "gjk_began"));  // with momentum; the first two
-  const bool answered = casting_ && ends_query(before_) && (begins_query(step) || step == "state" || step == "contact_found" || step == "impulse_applied");  // a cast goes on with its own step
+  const bool second = before_ == "gjk_ended" && step == "mpr_began" && c_.recording.settings.penetration == Penetration::mpr;
+  const bool answered = casting_ && !second && ends_query(before_) && (begins_query(step) || step == "state" || step == "contact_found" || step == "impulse_applied");  // a cast goes on with its own step
   const auto* end = std::get_if<recorded::CastEnded>(&event);
-  const bool given_up = end && end->status == CastStatus::iteration_limit && before_ == "gjk_ended";  // a run came to its limit: no step from there is safe
+  const bool given_up = end && end->status == CastStatus::iteration_limit && ends_query(before_);  // a run came to its limit: no step from there is safe
   if (!unkept && !given_up && (!may_follow(before_, step) || answered))
     c_.find("inconsistent", "\"" + step + "\" comes after " + (before_ == start ? before_ : "\"" + before_ + "\"") + ", where no step of ours leads to it. A step is missing here, or one too many.", Finding::Severity::warning);
   earlier_ = std::exchange(before_, step);

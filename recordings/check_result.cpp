@@ -158,6 +158,9 @@ struct Judge {
     for (std::size_t i = 0; i < r.contacts->size(); ++i) {
       const ContactPoint& p = (*r.contacts)[i];
       const std::string name = "Contact point " + std::to_string(i) + ", " + text_of(p.point_a) + " and " + text_of(p.point_b) + ", " + text_of(p.depth) + " deep, ";
+      for (std::size_t before = 0; before < i; ++before)
+        if (const ContactPoint& q = (*r.contacts)[before]; (p.point_a - q.point_a).norm() <= c.tolerance && (p.point_b - q.point_b).norm() <= c.tolerance)
+          c.find("wrong-contact", name + "is point " + std::to_string(before) + " again.", Finding::Severity::warning);
       const double off = r.normal ? (p.point_b - p.point_a + p.depth * *r.normal).norm() : std::abs((p.point_b - p.point_a).norm() - std::abs(p.depth));
       const double out = std::max(outside(scene, 0, p.point_a), outside(scene, 1, p.point_b));
       if (off > slack) c.find("wrong-contact", name + "is off by " + text_of(off) + ": point_b - point_a is -depth * normal.");
@@ -198,7 +201,7 @@ void check_need(CheckContext& c) {
   // MPR's depth is an upper bound, so that a scene of it may well expect yes or no alone.
   if (!costly || !file.expect || !file.expect->intersecting || file.expect->signed_distance || file.expect->normal || c.recording.settings.penetration == Penetration::mpr) return;
   c.step = 0;
-  c.find("asks-too-much", "The scene expects yes or no, but asks for \"" + std::string(query_names[static_cast<std::size_t>(query)]) + "\", which took " + std::to_string(c.recording.result.support_calls) +
+  c.find("asks-too-much", "The scene expects yes or no, but asks for \"" + std::string(word_of(query)) + "\", which took " + std::to_string(c.recording.result.support_calls) +
                               " support queries: \"query\": \"intersect\" would do, and ends at the first proof.",
          Finding::Severity::warning);
 }

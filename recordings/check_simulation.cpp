@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "algo/motion.h"
@@ -177,10 +178,12 @@ struct SimulationCheck {
         const auto i = static_cast<std::size_t>(k);
         const double off = std::min((e.point - before.bodies[i].position).norm(), (e.point - now.bodies[i].position).norm());
         const double reach = reach_of(scene.bodies[i].shape, scene.dimension), moves = 2 * h * (before.bodies[i].velocity.norm() + now.bodies[i].velocity.norm());
+        if (std::abs(e.normal.norm() - 1) > 1e-5) return c.find("wrong-normal", std::string(what) + "'s normal " + text_of(e.normal) + " has length " + text_of(e.normal.norm()) + " instead of 1.");
         if (off > reach + deepest / 2 + moves + 1e-6 * c.size) return c.find("wrong-contact", std::string(what) + " is at " + text_of(e.point) + ", " + text_of(off) + " from body " + std::to_string(k) + ", which reaches " + text_of(reach) + ".");
       }
     };
     const std::size_t here = c.step;
+    apart(before, steps);
     for (const std::size_t step : steps) {
       c.step = step;
       if (const auto* contact = std::get_if<recorded::ContactFound>(&c.recording.events[step])) judge(*contact, "A contact"), contacts.push_back(contact);
@@ -192,6 +195,36 @@ struct SimulationCheck {
         if (contact->pair == e->pair && contact->point == e->point && (contact->normal - e->normal).norm() > 1e-9) c.find("wrong-normal", "The impulse at " + text_of(e->point) + " has the normal " + text_of(e->normal) + ", its contact " + text_of(contact->normal) + ".");
     }
     c.step = here;
+  }
+
+  /// The deepest contact of two bodies is as deep as they overlap along its normal, from the first to the second, at the state before. Along a
+  /// flipped one the overlap is what is left of both widths.
+  void apart(const recorded::State& before, const std::vector<std::size_t>& steps) const {
+    std::map<std::vector<int>, std::pair<std::size_t, const recorded::ContactFound*>> deepest;
+    for (const std::size_t step : steps)
+      if (const auto* contact = std::get_if<recorded::ContactFound>(&c.recording.events[step])) {
+        const auto [found, first] = deepest.try_emplace({contact->pair[0], contact->pair[1]}, step, contact);
+        if (!first && contact->depth > found->second.second->depth) found->second = {step, contact};
+      }
+    for (const auto& [pair, found] : deepest) {
+      const auto& [step, contact] = found;
+      const auto support = [&](int k) {
+        const auto i = static_cast<std::size_t>(k);
+        Body body = scene.bodies[i];
+        body.pose.position = before.bodies[i].position, body.pose.matrix = moving(before, i).rotation.topLeftCorner(scene.dimension, scene.dimension);
+        return body;
+      };
+      const Body first = support(pair[0]), second = support(pair[1]);
+      if (std::holds_alternative<Mesh>(first.shape.geometry) || std::holds_alternative<Mesh>(second.shape.geometry)) continue;
+      const WorldSupport a(first, scene.dimension), b(second, scene.dimension);
+      const AnyVector& n = contact->normal;
+      const double overlap = n.dot(a(n, true) - b(-n, true)), behind = n.dot(b(n, true) - a(-n, true));
+      c.step = step;
+      if (std::abs(behind - contact->depth) + 1e-6 * c.size < std::abs(overlap - contact->depth))
+        c.find("flipped-normal", "Along the normal " + text_of(n) + " of the contact of bodies " + std::to_string(pair[0]) + " and " + std::to_string(pair[1]) + " they overlap by " + text_of(overlap) + ", against it by " + text_of(behind) + ", and the contact is " + text_of(contact->depth) + " deep: it leads from the second to the first.");
+      else if (!foreign(c.recording) && std::abs(overlap - contact->depth) > std::max({1e-6, 100 * c.digits(), c.stop}) * c.size)
+        c.find("wrong-contact", "Along the normal " + text_of(n) + " bodies " + std::to_string(pair[0]) + " and " + std::to_string(pair[1]) + " overlap by " + text_of(overlap) + "; their contact is " + text_of(contact->depth) + " deep.");
+    }
   }
 
   /// Velocities change by gravity and by the impulses, places by the velocities and by what contacts push apart.

@@ -41,7 +41,8 @@ void TraceCheck::order(const Event& event) {
   const auto* seeded = std::get_if<recorded::PolytopeSeeded>(&event);
   const auto* grown = std::get_if<recorded::PolytopeGrown>(&event);
   if (!seeded && !grown) return;
-  for (const auto& f : seeded ? seeded->faces : grown->added) given(f.face, faces_.insert(f.face).second, "a face");
+  if (seeded) polytope_.clear();
+  for (const auto& f : seeded ? seeded->faces : grown->added) polytope_.insert(f.face), given(f.face, faces_.insert(f.face).second, "a face");
 }
 
 void TraceCheck::values(const Event& event) {
@@ -191,13 +192,14 @@ void TraceCheck::judge(const recorded::GjkEnded& e) {
   const double distance = *c_.reference().signed_distance, limit = c_.answer_tolerance();
   const bool apart = e.status == GjkStatus::separated, cores_apart = e.status == GjkStatus::converged;
   if ((apart && distance < -limit) || (cores_apart && distance < -limit - c_.radius))
-    c_.find("unjustified-separation", "GJK ended as \"" + std::string(gjk_status_names[static_cast<std::size_t>(e.status)]) + "\", but the bodies overlap, " + text_of(-distance) + " deep.");
+    c_.find("unjustified-separation", "GJK ended as \"" + std::string(word_of(e.status)) + "\", but the bodies overlap, " + text_of(-distance) + " deep.");
 }
 
 void TraceCheck::judge(const recorded::PolytopeGrown& e) { bounds(-e.upper_bound, -e.lower_bound); }
 
 void TraceCheck::judge(const recorded::EpaEnded& e) {
-  if (e.face >= 0 && !faces_.empty() && !faces_.contains(e.face)) c_.find("wrong-face", "EPA ends at face " + std::to_string(e.face) + ", which the polytope never had.");
+  if (e.face >= 0 && !polytope_.empty() && !polytope_.contains(e.face)) c_.find("wrong-face", "EPA ends at face " + std::to_string(e.face) + ", which the polytope never had.");
+  polytope_.clear();
   if (e.status != EpaStatus::aborted) along(e.normal, -e.depth);
 }
 

@@ -46,15 +46,15 @@ void append_value(std::string& out, int x) { append_integer(out, x); }
 void append_value(std::string& out, double x) { append_number(out, x); }
 void append_value(std::string& out, const AnyVector& v) { append_vector(out, v); }
 void append_value(std::string& out, const std::string& text) { append_string(out, text); }
-void append_value(std::string& out, Phase p) { append_string(out, phase_names[static_cast<std::size_t>(p)]); }
-void append_value(std::string& out, GjkStatus s) { append_string(out, gjk_status_names[static_cast<std::size_t>(s)]); }
-void append_value(std::string& out, EpaStatus s) { append_string(out, epa_status_names[static_cast<std::size_t>(s)]); }
-void append_value(std::string& out, MprStatus s) { append_string(out, mpr_status_names[static_cast<std::size_t>(s)]); }
-void append_value(std::string& out, CastStatus s) { append_string(out, cast_status_names[static_cast<std::size_t>(s)]); }
-void append_value(std::string& out, ClosedFormStatus s) { append_string(out, closed_form_status_names[static_cast<std::size_t>(s)]); }
-void append_value(std::string& out, ProjectionsStatus s) { append_string(out, projections_status_names[static_cast<std::size_t>(s)]); }
-void append_value(std::string& out, SatStatus s) { append_string(out, sat_status_names[static_cast<std::size_t>(s)]); }
-void append_value(std::string& out, AxisSource s) { append_string(out, axis_source_names[static_cast<std::size_t>(s)]); }
+void append_value(std::string& out, Phase p) { append_string(out, word_of(p)); }
+void append_value(std::string& out, GjkStatus s) { append_string(out, word_of(s)); }
+void append_value(std::string& out, EpaStatus s) { append_string(out, word_of(s)); }
+void append_value(std::string& out, MprStatus s) { append_string(out, word_of(s)); }
+void append_value(std::string& out, CastStatus s) { append_string(out, word_of(s)); }
+void append_value(std::string& out, ClosedFormStatus s) { append_string(out, word_of(s)); }
+void append_value(std::string& out, ProjectionsStatus s) { append_string(out, word_of(s)); }
+void append_value(std::string& out, SatStatus s) { append_string(out, word_of(s)); }
+void append_value(std::string& out, AxisSource s) { append_string(out, word_of(s)); }
 void append_value(std::string& out, const Edge& e) {
   out += '[';
   append_integer(out, e[0]);
@@ -196,19 +196,19 @@ void append_settings(std::string& out, const Settings& s) {
     append_string(out, value);
   };
   out += '{';
-  name("name", method_names[static_cast<std::size_t>(s.name)], true);
-  name("closest_point", closest_point_names[static_cast<std::size_t>(s.closest_point)], false);
-  name("penetration", penetration_names[static_cast<std::size_t>(s.penetration)], false);
-  name("scalar", scalar_names[static_cast<std::size_t>(s.scalar)], false);
-  name("stopping", stopping_names[static_cast<std::size_t>(s.stopping)], false);
-  name("acceleration", acceleration_names[static_cast<std::size_t>(s.acceleration)], false);
+  name("name", word_of(s.name), true);
+  name("closest_point", word_of(s.closest_point), false);
+  name("penetration", word_of(s.penetration), false);
+  name("scalar", word_of(s.scalar), false);
+  name("stopping", word_of(s.stopping), false);
+  name("acceleration", word_of(s.acceleration), false);
   append_key(out, "tolerance");
   append_number(out, s.tolerance);
   append_key(out, "max_iterations");
   append_integer(out, s.max_iterations);
   append_key(out, "initial_direction");
   append_vector(out, s.initial_direction.value_or(AnyVector()));
-  name("start", start_names[static_cast<std::size_t>(s.start)], false);
+  name("start", word_of(s.start), false);
   if (!s.initial_simplex.empty()) append_key(out, "initial_simplex");
   for (std::size_t i = 0; i < s.initial_simplex.size(); ++i) {
     out += i == 0 ? "[{" : ",{";

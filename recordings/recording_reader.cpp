@@ -12,7 +12,7 @@ constexpr int largest_number = std::numeric_limits<int>::max();
 struct FieldReader {
   int dimension;
 
-  void read(const Json& json, const Place& place, std::string_view, int& x) const { x = read_integer(json, place, -1, largest_number); }
+  void read(const Json& json, const Place& place, std::string_view name, int& x) const { x = read_integer(json, place, name == "iteration" ? 0 : -1, largest_number); }
 
   void read(const Json& json, const Place& place, std::string_view name, double& x) const {
     const bool bound = name == "lower_bound" || name == "upper_bound";

@@ -136,16 +136,16 @@ Json json_of(const Body& body, int dimension, MeshNotation notation) {
 
 Json json_of(const Method& m) {
   Json out = Json::object();
-  if (m.name) out["name"] = method_names[static_cast<std::size_t>(*m.name)];
-  if (m.closest_point) out["closest_point"] = closest_point_names[static_cast<std::size_t>(*m.closest_point)];
-  if (m.penetration) out["penetration"] = penetration_names[static_cast<std::size_t>(*m.penetration)];
-  if (m.scalar) out["scalar"] = scalar_names[static_cast<std::size_t>(*m.scalar)];
-  if (m.stopping) out["stopping"] = stopping_names[static_cast<std::size_t>(*m.stopping)];
-  if (m.acceleration) out["acceleration"] = acceleration_names[static_cast<std::size_t>(*m.acceleration)];
+  if (m.name) out["name"] = word_of(*m.name);
+  if (m.closest_point) out["closest_point"] = word_of(*m.closest_point);
+  if (m.penetration) out["penetration"] = word_of(*m.penetration);
+  if (m.scalar) out["scalar"] = word_of(*m.scalar);
+  if (m.stopping) out["stopping"] = word_of(*m.stopping);
+  if (m.acceleration) out["acceleration"] = word_of(*m.acceleration);
   if (m.tolerance) out["tolerance"] = *m.tolerance;
   if (m.max_iterations) out["max_iterations"] = *m.max_iterations;
   if (m.initial_direction) out["initial_direction"] = json_of(*m.initial_direction);
-  if (m.start) out["start"] = start_names[static_cast<std::size_t>(*m.start)];
+  if (m.start) out["start"] = word_of(*m.start);
   for (const SimplexPoint& p : m.initial_simplex) out["initial_simplex"].push_back({{"a", json_of(p.a)}, {"b", json_of(p.b)}});
   return out;
 }
@@ -171,15 +171,15 @@ Json scene_to_json(const SceneFile& file, MeshNotation notation) {
   if (!scene.source.empty()) out["source"] = scene.source;
   if (!scene.tags.empty()) out["tags"] = scene.tags;
   out["dimension"] = scene.dimension;
-  out["query"] = query_names[static_cast<std::size_t>(scene.query)];
+  out["query"] = word_of(scene.query);
   out["bodies"] = Json::array();
   for (const Body& body : scene.bodies) out["bodies"].push_back(json_of(body, scene.dimension, notation));
-  if (scene.motion && scene.query == Query::cast && scene.motion->response != Response::stop) out["response"] = response_names[static_cast<std::size_t>(scene.motion->response)];
+  if (scene.motion && scene.query == Query::cast && scene.motion->response != Response::stop) out["response"] = word_of(scene.motion->response);
   if (scene.motion && scene.query == Query::simulate) {
     if (!scene.motion->gravity.isZero(0)) out["gravity"] = json_of(scene.motion->gravity);
     out["time_step"] = scene.motion->time_step;
     out["steps"] = scene.motion->steps;
-    out["integrator"] = integrator_names[static_cast<std::size_t>(scene.motion->integrator)];
+    out["integrator"] = word_of(scene.motion->integrator);
   }
   if (const Json method = json_of(file.method); !method.empty()) out["method"] = method;
   if (file.expect) out["expect"] = json_of(*file.expect);

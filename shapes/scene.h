@@ -23,10 +23,12 @@ enum class Query {
 };
 inline constexpr std::array<std::string_view, 6> query_names{"intersect", "distance", "penetration",
                                                              "contact",   "cast",     "simulate"};
+constexpr std::string_view word_of(Query x) { return query_names[static_cast<std::size_t>(x)]; }
 
 /// What a cast does when bodies meet.
 enum class Response { stop, slide, bounce };
 inline constexpr std::array<std::string_view, 3> response_names{"stop", "slide", "bounce"};
+constexpr std::string_view word_of(Response x) { return response_names[static_cast<std::size_t>(x)]; }
 
 /// How a simulation goes from one time to the next.
 enum class Integrator {
@@ -35,6 +37,7 @@ enum class Integrator {
   rk4,                  ///< Runge and Kutta's fourth order, on the quaternion
 };
 inline constexpr std::array<std::string_view, 3> integrator_names{"explicit-euler", "semi-implicit-euler", "rk4"};
+constexpr std::string_view word_of(Integrator x) { return integrator_names[static_cast<std::size_t>(x)]; }
 
 /// How a body moves; only in the scenes of `cast` and `simulate`. World axes; the body turns about its pose's position.
 /// A cast reads the velocities, and for Response::bounce the restitution.

@@ -45,7 +45,7 @@ struct AtlasCommand {
       for (std::size_t m = 0; m < atlas.methods.size(); ++m) {
         const AtlasCell& cell = atlas.cells[f][m];
         if (cell.verdict == Verdict::right || cell.verdict == Verdict::not_applicable) continue;
-        std::cout << "      " << std::setw(26) << atlas.methods[m].name << std::setw(22) << verdict_names[static_cast<std::size_t>(cell.verdict)] << " error " << std::setprecision(2) << cell.worst_error << " at "
+        std::cout << "      " << std::setw(26) << atlas.methods[m].name << std::setw(22) << word_of(cell.verdict) << " error " << std::setprecision(2) << cell.worst_error << " at "
                   << cell.parameter << "\n";
         if (!cell.why.empty()) std::cout << "        " << cell.why << "\n";
       }
@@ -87,7 +87,7 @@ struct AtlasCommand {
         const int now = static_cast<int>(atlas.cells[f][m].verdict);
         if (was == kept.end() || now <= was->second || atlas.cells[f][m].verdict == Verdict::not_applicable) continue;
         worse = true;
-        std::cout << "worse than kept: " << atlas.families[f].name << ", " << atlas.methods[m].name << ": " << verdict_names[static_cast<std::size_t>(was->second)] << " -> " << verdict_names[static_cast<std::size_t>(now)] << "\n";
+        std::cout << "worse than kept: " << atlas.families[f].name << ", " << atlas.methods[m].name << ": " << word_of(static_cast<Verdict>(was->second)) << " -> " << word_of(atlas.cells[f][m].verdict) << "\n";
       }
     return worse;
   }

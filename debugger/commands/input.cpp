@@ -106,7 +106,7 @@ void MethodFlags::override_in(Method& method) const {
   override_name(method.stopping, stopping_, stopping_names);
   override_name(method.acceleration, acceleration_, acceleration_names);
   override_name(method.start, start_, start_names);
-  if (!start_from_.empty() && (!initial_direction_.empty() || (start_ && *start_ != start_names[static_cast<std::size_t>(Start::previous)])))
+  if (!start_from_.empty() && (!initial_direction_.empty() || (start_ && *start_ != word_of(Start::previous))))
     throw Error("bad-usage", "GJK begins with its simplex, and cannot begin otherwise as well", "--start-from " + start_from_);
   if (!start_from_.empty()) method.start = Start::previous, method.initial_simplex = last_simplex(read_recording(start_from_)), method.initial_direction.reset();
   if (tolerance_) method.tolerance = tolerance_;

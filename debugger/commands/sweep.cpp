@@ -172,7 +172,7 @@ struct Sweep {
 
   Settings settings_of(const SceneFile& scene) const {
     Method method = method_for_solver(scene.method);
-    if (by == method_names[static_cast<std::size_t>(MethodName::gjk_accelerated)]) method.name = MethodName::gjk_accelerated;
+    if (by == word_of(MethodName::gjk_accelerated)) method.name = MethodName::gjk_accelerated;
     if (!scalar.empty()) method.scalar = scalar == scalar_names[1] ? Scalar::float_precision : Scalar::double_precision;
     return resolve_settings(method, scene.scene);
   }

@@ -213,7 +213,7 @@ std::string atlas_csv(const Atlas& atlas) {
   for (std::size_t f = 0; f < atlas.families.size(); ++f)
     for (std::size_t m = 0; m < atlas.methods.size(); ++m) {
       const AtlasCell& cell = atlas.cells[f][m];
-      out += atlas.families[f].name + ",\"" + atlas.methods[m].name + "\"," + verdict_names[static_cast<std::size_t>(cell.verdict)] + "," + three_digits(cell.worst_error) + "," + three_digits(cell.parameter) + "\n";
+      out += atlas.families[f].name + ",\"" + atlas.methods[m].name + "\"," + word_of(cell.verdict) + "," + three_digits(cell.worst_error) + "," + three_digits(cell.parameter) + "\n";
     }
   return out;
 }
@@ -226,7 +226,7 @@ std::string atlas_json(const Atlas& atlas) {
     family["cells"] = nlohmann::ordered_json::array();
     for (std::size_t m = 0; m < atlas.methods.size(); ++m) {
       const AtlasCell& cell = atlas.cells[f][m];
-      nlohmann::ordered_json entry{{"method", atlas.methods[m].name}, {"verdict", verdict_names[static_cast<std::size_t>(cell.verdict)]}, {"parameter", cell.parameter}};
+      nlohmann::ordered_json entry{{"method", atlas.methods[m].name}, {"verdict", word_of(cell.verdict)}, {"parameter", cell.parameter}};
       entry["worst_error"] = std::isfinite(cell.worst_error) ? nlohmann::ordered_json(cell.worst_error) : nlohmann::ordered_json(nullptr);
       if (failed(cell.verdict)) {
         entry["why"] = cell.why;

@@ -22,6 +22,7 @@ enum class Verdict {
   not_applicable          ///< the method does not take such bodies, or says nothing but yes and no here
 };
 inline constexpr std::array<const char*, 9> verdict_names{"right", "right-within-rounding", "gave-up", "wrong-value", "lied", "wrong-class", "not-finite", "crashed", "not-applicable"};
+constexpr const char* word_of(Verdict x) { return verdict_names[static_cast<std::size_t>(x)]; }
 /// Beside the colour, in every cell: no verdict is told by colour alone.
 inline constexpr std::array<const char*, 9> verdict_marks{"", "\xE2\x89\x88", "?", "\xE2\x89\xA0", "!", "\xC2\xB1", "\xE2\x88\x9E", "\xC3\x97", ""};
 inline bool failed(Verdict verdict) { return verdict >= Verdict::gave_up && verdict != Verdict::not_applicable; }

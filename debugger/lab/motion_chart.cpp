@@ -87,7 +87,7 @@ void cast_points(const std::string& family, bool quick, std::vector<MotionPoint>
   for (const MethodName name : {MethodName::conservative_advancement, MethodName::root_finding, MethodName::ray_cast}) {
     if (name == MethodName::ray_cast && family == "boxes, turning") continue;
     for (const double tolerance : quick ? std::vector<double>{1e-3, 1e-9} : std::vector<double>{1e-2, 1e-4, 1e-6, 1e-9, 1e-12}) {
-      MotionPoint point{family, std::string(method_names[static_cast<std::size_t>(name)]), tolerance, 0, 0, 0, 0};
+      MotionPoint point{family, std::string(word_of(name)), tolerance, 0, 0, 0, 0};
       Method method;
       method.name = name, method.tolerance = tolerance;
       for (const CastScene& c : scenes) {
@@ -119,7 +119,7 @@ void integrator_points(bool quick, std::vector<MotionPoint>& points) {
       const Vector<3, double> half(0.5, 0.3, 0.2);
       file.scene.bodies = {moving({Box{AnyVector(-half), AnyVector(half)}, 0}, Vector<3, double>::Zero(), {1, 0, 0}, {3, 0.5, 0.2})};
       const Settings settings = resolve_settings({}, file.scene);
-      MotionPoint point{"free box", std::string(integrator_names[static_cast<std::size_t>(integrator)]), step, 0, 0, 0, 0};
+      MotionPoint point{"free box", std::string(word_of(integrator)), step, 0, 0, 0, 0};
       double first = 0;
       for (const Event& event : record(file, settings).events)
         if (const auto* s = std::get_if<recorded::State>(&event)) {

@@ -64,7 +64,7 @@ SolverRecorder::SolverRecorder(const SceneFile& scene, const Settings& settings,
 }
 
 std::string SolverRecorder::scene_message() const {
-  std::string out = "{\"type\":\"scene\",\"dimension\":" + std::to_string(dimension_) + ",\"query\":\"" + std::string(query_names[static_cast<std::size_t>(recording_.scene.scene.query)]) + "\",\"tolerance\":";
+  std::string out = "{\"type\":\"scene\",\"dimension\":" + std::to_string(dimension_) + ",\"query\":\"" + std::string(word_of(recording_.scene.scene.query)) + "\",\"tolerance\":";
   append_number(out, recording_.settings.tolerance);
   return out + "}";
 }

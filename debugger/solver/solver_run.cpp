@@ -95,7 +95,7 @@ Method method_for_solver(const Method& of_scene) {
 }
 
 Recording run_solver(const SceneFile& scene, const Settings& settings, const std::string& command, const SolverLimits& limits) {
-  if (scene.scene.motion) throw Error("unsupported-query", "a solver answers scenes that do not move, not \"" + std::string(query_names[static_cast<std::size_t>(scene.scene.query)]) + "\"", "/query");
+  if (scene.scene.motion) throw Error("unsupported-query", "a solver answers scenes that do not move, not \"" + std::string(word_of(scene.scene.query)) + "\"", "/query");
   for (const Body& body : scene.scene.bodies)
     if (std::holds_alternative<Mesh>(body.shape.geometry)) throw Error("unsupported-shape", "a mesh has no support function; a solver runs on convex shapes", "/bodies");
   SolverRecorder recorder(scene, settings, limits.max_supports);

@@ -270,8 +270,8 @@ void App::title_and_chips(const Area& area) {
   const std::string found = wrong || errors == 0 ? "" : errors == 1 ? "  \xC2\xB7  1 finding" : "  \xC2\xB7  " + std::to_string(errors) + " findings";
   const std::string result = (wrong ? "wrong: " : "") + result_text(session.recording()) + found, name = session.title() + (session.can_undo() ? " (edited)" : "");
   const Colour tone = neutral ? theme.palette.text_soft : wrong ? theme.palette.newest : session.recording().result.intersecting ? theme.palette.chosen : theme.palette.support;
-  const std::string whole = method_text(session.recording()), short_name = foreign(session.recording()) ? "yours" : std::string(method_names[static_cast<std::size_t>(session.recording().settings.name)]);
-  std::string method = whole + "  \xC2\xB7  " + std::string(query_names[static_cast<std::size_t>(session.scene().scene.query)]);
+  const std::string whole = method_text(session.recording()), short_name = foreign(session.recording()) ? "yours" : std::string(word_of(session.recording().settings.name));
+  std::string method = whole + "  \xC2\xB7  " + std::string(word_of(session.scene().scene.query));
   const auto width = [&](const std::string& text) { return theme.small->CalcTextSizeA(theme.small->FontSize, 1e6f, 0, text.c_str()).x + theme.px(22); };
   const float here = ImGui::GetItemRectMax().x + theme.px(16), title = ImGui::CalcTextSize(name.c_str()).x, middle = area.width / 2 - title / 2;
   const auto both = [&] { return width(result) + width(method) + theme.px(8); };
@@ -287,7 +287,7 @@ void App::title_and_chips(const Area& area) {
   ImGui::SameLine(area.width - chips - theme.px(16));
   if (!alone) {
     chip(theme, method, theme.palette.accent);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("method: %s\nquery: %s", whole.c_str(), query_names[static_cast<std::size_t>(session.scene().scene.query)].data());
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("method: %s\nquery: %s", whole.c_str(), word_of(session.scene().scene.query).data());
     ImGui::SameLine(0, theme.px(8));
   }
   chip(theme, result, tone);

@@ -14,16 +14,6 @@ namespace {
 /// What a path leads to: a number or a word.
 using Value = std::variant<double, std::string>;
 
-std::string_view word_of(Phase p) { return phase_names[static_cast<std::size_t>(p)]; }
-std::string_view word_of(GjkStatus s) { return gjk_status_names[static_cast<std::size_t>(s)]; }
-std::string_view word_of(EpaStatus s) { return epa_status_names[static_cast<std::size_t>(s)]; }
-std::string_view word_of(MprStatus s) { return mpr_status_names[static_cast<std::size_t>(s)]; }
-std::string_view word_of(SatStatus s) { return sat_status_names[static_cast<std::size_t>(s)]; }
-std::string_view word_of(ClosedFormStatus s) { return closed_form_status_names[static_cast<std::size_t>(s)]; }
-std::string_view word_of(ProjectionsStatus s) { return projections_status_names[static_cast<std::size_t>(s)]; }
-std::string_view word_of(CastStatus s) { return cast_status_names[static_cast<std::size_t>(s)]; }
-std::string_view word_of(AxisSource s) { return axis_source_names[static_cast<std::size_t>(s)]; }
-
 std::optional<Value> part_of(double x, std::string_view part) { return part.empty() ? std::optional<Value>(x) : std::nullopt; }
 std::optional<Value> part_of(int x, std::string_view part) { return part_of(static_cast<double>(x), part); }
 std::optional<Value> part_of(const Edge& e, std::string_view part) {

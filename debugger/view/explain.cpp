@@ -232,7 +232,7 @@ struct Explain : ExplainMotion {
   Explanation operator()(const recorded::GjkEnded& e) const {
     if (foreign(recording) && e.status != GjkStatus::aborted)
       return {"The solver ends", std::string("It takes the bodies to be ") + (e.status == GjkStatus::enclosed || e.status == GjkStatus::touching || e.status == GjkStatus::within_radius ? "overlapping." : "apart.")};
-    return {"GJK ends: " + in_words(gjk_status_names[static_cast<std::size_t>(e.status)]), sentence(e)};
+    return {"GJK ends: " + in_words(word_of(e.status)), sentence(e)};
   }
 
   Explanation operator()(const recorded::PolytopeSeeded& e) const {
@@ -264,7 +264,7 @@ struct Explain : ExplainMotion {
   Explanation operator()(const recorded::EpaEnded& e) const {
     if (foreign(recording) && e.status != EpaStatus::aborted)
       return {"The solver's EPA ends", "It takes the " + facet() + " chosen for part of the boundary, and gives " + short_number(e.depth) + " for the depth" + (e.normal.isZero(0) ? "." : ", " + short_vector(e.normal) + " for the normal.")};
-    return {"EPA ends: " + in_words(epa_status_names[static_cast<std::size_t>(e.status)]), sentence(e)};
+    return {"EPA ends: " + in_words(word_of(e.status)), sentence(e)};
   }
 
   Explanation operator()(const recorded::MprBegan& e) const {
@@ -277,7 +277,7 @@ struct Explain : ExplainMotion {
   }
 
   Explanation operator()(const recorded::MprEnded& e) const {
-    const std::string title = "MPR ends: " + in_words(mpr_status_names[static_cast<std::size_t>(e.status)]);
+    const std::string title = "MPR ends: " + in_words(word_of(e.status));
     switch (e.status) {
       case MprStatus::separated: return {title, "The plane of the last support has all of " + difference() + " on its far side: the bodies are apart, by at least " + short_number(-e.depth) + ". How far, MPR does not know."};
       case MprStatus::overlapping: return {title, "The origin lies inside a portal: the bodies overlap, and no more was asked."};
@@ -330,7 +330,7 @@ struct Explain : ExplainMotion {
   bool gjk_follows() const { return frame.step + 1 < recording.events.size() && std::holds_alternative<recorded::GjkBegan>(recording.events[frame.step + 1]); }
 
   Explanation operator()(const recorded::SatEnded& e) const {
-    const std::string title = "SAT ends: " + std::string(sat_status_names[static_cast<std::size_t>(e.status)]);
+    const std::string title = "SAT ends: " + std::string(word_of(e.status));
     if (e.status == SatStatus::separated && frame.step > 0 && std::holds_alternative<recorded::PointsProjected>(recording.events[frame.step - 1]))
       return {title, "An axis separates the bodies (their cores), and " + std::string(boxes() ? "the nearest points are known: " : "the points projected last are each the nearest to the other: ") + short_number(e.distance) + " along " + short_vector(e.normal) + " is the distance."};
     if (e.status == SatStatus::separated)
@@ -354,7 +354,7 @@ struct Explain : ExplainMotion {
   }
 
   Explanation operator()(const recorded::ProjectionsEnded& e) const {
-    const std::string title = "Projections end: " + std::string(projections_status_names[static_cast<std::size_t>(e.status)]);
+    const std::string title = "Projections end: " + std::string(word_of(e.status));
     if (e.status == ProjectionsStatus::separated) return {title, "The plane across the way from a to b leaves no room for points that are nearer: these are the nearest ones, and the bodies are between " + short_number(e.lower_bound) + " and " + short_number(e.upper_bound) + " apart."};
     if (e.status == ProjectionsStatus::overlapping) return {title, std::string("The cores share a point") + (recording.scene.scene.query > Query::distance ? ". How deep they overlap is for GJK and EPA to find." : ".")};
     return {title, "What is left is within rounding, or the points do not settle. GJK decides."};
@@ -370,7 +370,7 @@ struct Explain : ExplainMotion {
   }
 
   Explanation operator()(const recorded::ClosedFormEnded& e) const {
-    const std::string title = "Closed form ends: " + std::string(closed_form_status_names[static_cast<std::size_t>(e.status)]), at = "At s = " + short_number(e.s) + ", t = " + short_number(e.t) + ", ";
+    const std::string title = "Closed form ends: " + std::string(word_of(e.status)), at = "At s = " + short_number(e.s) + ", t = " + short_number(e.t) + ", ";
     if (e.status == ClosedFormStatus::separated) return {title, at + "v is nearest to the origin, " + short_number(e.closest.norm()) + " away, and the plane across it proves that. Less the radii, that is the bodies' distance."};
     if (e.normal.norm() > 0) return {title, "The origin lies in " + difference() + ". " + at + "the border is nearest, " + short_number(e.closest.norm()) + " along " + short_vector(e.normal) + "; with the radii, that is the depth."};
     return {title, "The origin lies in " + difference() + ", so the bodies overlap; no more was asked."};

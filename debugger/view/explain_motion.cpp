@@ -36,7 +36,7 @@ bool ExplainMotion::responded() const {
 }
 
 Explanation ExplainMotion::operator()(const recorded::CastEnded& e) const {
-  const std::string title = "The cast ends: " + in_words(cast_status_names[static_cast<std::size_t>(e.status)]);
+  const std::string title = "The cast ends: " + in_words(word_of(e.status));
   const std::string who = e.pair.size() == 2 ? body(e.pair[0]) + " and " + body(e.pair[1]) : "";
   switch (e.status) {
     case CastStatus::hit: return {title, "At time " + short_number(e.time) + " " + who + " are within the tolerance of each other and still approaching: this is the time of impact, early by no more than that tolerance."};

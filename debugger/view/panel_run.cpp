@@ -37,10 +37,10 @@ void compare_section(App& app) {
     if (now.scalar == Scalar::double_precision) offer("float", [](Method& m) { m.scalar = Scalar::float_precision, m.tolerance.reset(); });
     else offer("double", [](Method& m) { m.scalar = Scalar::double_precision, m.tolerance.reset(); });
     for (const ClosestPoint part : {ClosestPoint::signed_volumes, ClosestPoint::johnson, ClosestPoint::voronoi})
-      if (part != now.closest_point) offer(closest_point_names[static_cast<std::size_t>(part)].data(), [&](Method& m) { m.closest_point = part, m.name = MethodName::gjk; });
+      if (part != now.closest_point) offer(word_of(part).data(), [&](Method& m) { m.closest_point = part, m.name = MethodName::gjk; });
     for (const MethodName name : {MethodName::gjk, MethodName::gjk_accelerated, MethodName::gjk_boolean, MethodName::mpr, MethodName::sat, MethodName::closed_form, MethodName::projections}) {
       if ((name == now.name && !foreign(s.recording())) || std::find(possible.begin(), possible.end(), static_cast<int>(name)) == possible.end()) continue;
-      offer(method_names[static_cast<std::size_t>(name)].data(), [&](Method& m) { change_name(m, name); });
+      offer(word_of(name).data(), [&](Method& m) { change_name(m, name); });
     }
     if (ImGui::Selectable("another recording ...")) app.ask(App::Asking::compare);
     ImGui::EndCombo();

@@ -72,38 +72,38 @@ struct Summarise {
   /// A solver's is put down from its answer.
   std::string operator()(const recorded::GjkEnded& e) const {
     if (foreign(recording) && e.status != GjkStatus::aborted) return e.status == GjkStatus::enclosed || e.status == GjkStatus::touching || e.status == GjkStatus::within_radius ? "taken to overlap" : "taken to be apart";
-    return std::string(gjk_status_names[static_cast<std::size_t>(e.status)]);
+    return std::string(word_of(e.status));
   }
   std::string operator()(const recorded::PolytopeSeeded& e) const { return std::to_string(e.vertices.size()) + " vertices, " + std::to_string(e.faces.size()) + " " + facet_name(recording) + "s"; }
   std::string operator()(const recorded::FaceChosen& e) const { return facet_name(recording) + " " + std::to_string(e.face) + " at " + short_number(e.distance); }
   std::string operator()(const recorded::PolytopeGrown& e) const { return "-" + std::to_string(e.removed.size()) + " +" + std::to_string(e.added.size()) + " " + facet_name(recording) + "s"; }
   std::string operator()(const recorded::EpaEnded& e) const {
     if (e.status == EpaStatus::aborted) return "aborted";  // no depth was found
-    return std::string(epa_status_names[static_cast<std::size_t>(e.status)]) + "  depth " + short_number(e.depth);
+    return std::string(word_of(e.status)) + "  depth " + short_number(e.depth);
   }
   std::string operator()(const recorded::MprBegan& e) const { return "from " + short_vector(e.interior); }
   std::string operator()(const recorded::PortalFound& e) const { return "portal at " + short_number(e.distance); }
   std::string operator()(const recorded::MprEnded& e) const {
-    return std::string(mpr_status_names[static_cast<std::size_t>(e.status)]) + (e.status == MprStatus::separated ? "  gap " + short_number(-e.depth) : "  depth " + short_number(e.depth));
+    return std::string(word_of(e.status)) + (e.status == MprStatus::separated ? "  gap " + short_number(-e.depth) : "  depth " + short_number(e.depth));
   }
   std::string operator()(const recorded::SatBegan& e) const { return std::to_string(e.faces_a) + " + " + std::to_string(e.faces_b) + " faces, " + std::to_string(e.edge_pairs) + " edge pairs"; }
   std::string operator()(const recorded::AxisTested& e) const { return (e.distance > 0 ? "gap " : "overlap ") + short_number(std::abs(e.distance)); }
   std::string operator()(const recorded::PointsProjected& e) const { return "|a - b| = " + short_number(e.closest.norm()); }
   std::string operator()(const recorded::SatEnded& e) const {
-    return std::string(sat_status_names[static_cast<std::size_t>(e.status)]) + "  " + short_number(e.distance);
+    return std::string(word_of(e.status)) + "  " + short_number(e.distance);
   }
   std::string operator()(const recorded::ClosedFormBegan& e) const { return "c = " + short_vector(e.corner); }
   std::string operator()(const recorded::LinesSolved& e) const {
     const std::string s = std::isnan(e.s) ? "" : "s = " + short_number(e.s), t = std::isnan(e.t) ? "" : "t = " + short_number(e.t);
     return s.empty() || t.empty() ? s + t : s + "  " + t;
   }
-  std::string operator()(const recorded::ClosedFormEnded& e) const { return std::string(closed_form_status_names[static_cast<std::size_t>(e.status)]) + "  " + short_number((e.lower_bound + e.upper_bound) / 2); }
+  std::string operator()(const recorded::ClosedFormEnded& e) const { return std::string(word_of(e.status)) + "  " + short_number((e.lower_bound + e.upper_bound) / 2); }
   std::string operator()(const recorded::ProjectionsBegan& e) const { return "x = " + short_vector(e.point); }
   std::string operator()(const recorded::PointPredicted& e) const { return "x = " + short_vector(e.point); }
-  std::string operator()(const recorded::ProjectionsEnded& e) const { return std::string(projections_status_names[static_cast<std::size_t>(e.status)]); }
+  std::string operator()(const recorded::ProjectionsEnded& e) const { return std::string(word_of(e.status)); }
   std::string operator()(const recorded::CastBegan& e) const { return std::to_string(e.pairs.size()) + " pairs"; }
   std::string operator()(const recorded::CastAdvanced& e) const { return (recording.scene.scene.bodies.size() > 2 ? pair(e.pair) + "  " : "") + "t = " + short_number(e.time) + "  d = " + short_number(e.distance); }
-  std::string operator()(const recorded::CastEnded& e) const { return std::string(cast_status_names[static_cast<std::size_t>(e.status)]) + "  t = " + short_number(e.time); }
+  std::string operator()(const recorded::CastEnded& e) const { return std::string(word_of(e.status)) + "  t = " + short_number(e.time); }
   std::string operator()(const recorded::State& e) const { return "t = " + short_number(e.time); }
   std::string pair(const std::array<int, 2>& p) const { return body_letter(p[0]) + "-" + body_letter(p[1]); }
   std::string operator()(const recorded::ContactFound& e) const { return pair(e.pair) + "  depth " + short_number(e.depth); }

@@ -187,12 +187,12 @@ const char* short_kind(const Event& event) {
 std::string method_text(const Recording& recording) {
   if (foreign(recording)) return "your solver";  // whatever method the file names
   const Settings& s = recording.settings;
-  std::string text(method_names[static_cast<std::size_t>(s.name)]);
-  if (s.name == MethodName::gjk_accelerated && s.acceleration != Acceleration::nesterov) text += " \xC2\xB7 " + std::string(acceleration_names[static_cast<std::size_t>(s.acceleration)]);
-  if (s.closest_point != ClosestPoint::signed_volumes) text += " \xC2\xB7 " + std::string(closest_point_names[static_cast<std::size_t>(s.closest_point)]);
-  if (s.stopping != Stopping::bounds) text += " \xC2\xB7 " + std::string(stopping_names[static_cast<std::size_t>(s.stopping)]);
+  std::string text(word_of(s.name));
+  if (s.name == MethodName::gjk_accelerated && s.acceleration != Acceleration::nesterov) text += " \xC2\xB7 " + std::string(word_of(s.acceleration));
+  if (s.closest_point != ClosestPoint::signed_volumes) text += " \xC2\xB7 " + std::string(word_of(s.closest_point));
+  if (s.stopping != Stopping::bounds) text += " \xC2\xB7 " + std::string(word_of(s.stopping));
   if (s.start == Start::previous) text += " \xC2\xB7 warm";
-  return text + " \xC2\xB7 " + std::string(scalar_names[static_cast<std::size_t>(s.scalar)]);
+  return text + " \xC2\xB7 " + std::string(word_of(s.scalar));
 }
 
 std::string parting_text(const Session& session) {

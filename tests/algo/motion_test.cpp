@@ -76,11 +76,11 @@ TEST(Cast, BallsMeetWhenTheQuadraticSays) {
     if (std::abs(time - 1) < 1e-6) continue;
     for (const MethodName name : {MethodName::conservative_advancement, MethodName::ray_cast, MethodName::root_finding}) {
       const Result found = run(scene, name);
-      EXPECT_EQ(found.intersecting, hit) << k << " " << method_names[static_cast<std::size_t>(name)] << " " << time << " " << found.status;
+      EXPECT_EQ(found.intersecting, hit) << k << " " << word_of(name) << " " << time << " " << found.status;
       if (!hit || !found.intersecting) continue;
       ++hits;
       EXPECT_LE(*found.time, time + 1e-13) << "late";
-      EXPECT_GE(*found.time, time - 1e-5) << k << " " << method_names[static_cast<std::size_t>(name)];
+      EXPECT_GE(*found.time, time - 1e-5) << k << " " << word_of(name);
       ASSERT_TRUE(found.touching_at);
       EXPECT_GE(*found.touching_at, time - 1e-13);
       EXPECT_GT((scene.bodies[0].motion->velocity - v).dot(*found.normal), 0);
@@ -117,15 +117,15 @@ TEST(Cast, NothingTunnels) {
       continue;
     }
     const double until = found.status == "miss" ? 1 : *found.time;
-    for (int i = 0; i <= 6; ++i) EXPECT_GE(gap(scene, until * i / 6), -1e-10 * size) << k << " at " << until * i / 6 << " of " << until << " " << method_names[static_cast<std::size_t>(name)];
+    for (int i = 0; i <= 6; ++i) EXPECT_GE(gap(scene, until * i / 6), -1e-10 * size) << k << " at " << until * i / 6 << " of " << until << " " << word_of(name);
     if (found.status == "hit") {
       ++hits;
-      EXPECT_LE(gap(scene, *found.time), 1e-7 * size) << k << " " << method_names[static_cast<std::size_t>(name)];
+      EXPECT_LE(gap(scene, *found.time), 1e-7 * size) << k << " " << word_of(name);
       if (found.touching_at) {
         EXPECT_LE(gap(scene, *found.touching_at), 1e-12 * size);
       }
     }
-    EXPECT_TRUE(found.status == "hit" || found.status == "miss") << found.status << " " << k << " " << method_names[static_cast<std::size_t>(name)];
+    EXPECT_TRUE(found.status == "hit" || found.status == "miss") << found.status << " " << k << " " << word_of(name);
     if (testing::Test::HasFailure()) return;
   }
   EXPECT_GT(hits, runs(10000) / 10);
@@ -242,7 +242,7 @@ TEST(Simulate, FreeBodiesKeepMomentumAndEnergy) {
       EXPECT_EQ(s.momentum, states[0].momentum);
       drift = std::max(drift, std::abs(s.energy / states[0].energy - 1));
     }
-    std::printf("%s: energy drift %.2g over 200 steps\n", integrator_names[static_cast<std::size_t>(integrator)].data(), drift);
+    std::printf("%s: energy drift %.2g over 200 steps\n", word_of(integrator).data(), drift);
     EXPECT_LE(drift, integrator == Integrator::explicit_euler ? 1e-1 : integrator == Integrator::semi_implicit_euler ? 1e-3 : 1e-7);
     EXPECT_NEAR(states.back().bodies[0].position[2], 6, 1e-12);
   }
@@ -255,7 +255,7 @@ TEST(Simulate, AFallIsAParabola) {
     scene.motion->gravity = at({0, -g, 0});
     const double y = states_of(scene).back().bodies[0].position[1], exact = 100 - g / 2;
     const double order = integrator == Integrator::rk4 ? 1e-11 : 1.01 * g * h / 2;
-    EXPECT_NEAR(y, exact, order) << integrator_names[static_cast<std::size_t>(integrator)];
+    EXPECT_NEAR(y, exact, order) << word_of(integrator);
   }
 }
 

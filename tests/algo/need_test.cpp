@@ -111,7 +111,7 @@ TEST(Need, APreparedQueryAllocatesNothing) {
     const Settings settings = resolve_settings({}, scene);
     for (const Query query : {Query::intersect, Query::distance, Query::penetration}) {
       const long made = allocations_of(scene, settings, query);
-      EXPECT_EQ(made, 0) << "scene " << k << " " << query_names[static_cast<std::size_t>(query)];
+      EXPECT_EQ(made, 0) << "scene " << k << " " << word_of(query);
       if (testing::Test::HasFailure()) return;
     }
   }

@@ -65,7 +65,7 @@ void check(const Scene& scene, const Result& r, const oracle::Answer& exact, Err
 void check_booleans(const Scene& scene, const oracle::Answer& exact) {
   if (std::abs(exact.signed_distance) <= 1e-12 * size_of(scene)) return;
   for (const Query query : {Query::intersect, Query::distance, Query::penetration, Query::contact})
-    EXPECT_EQ(answer(scene, query).intersecting, exact.intersecting) << query_names[static_cast<std::size_t>(query)] << " " << exact.signed_distance;
+    EXPECT_EQ(answer(scene, query).intersecting, exact.intersecting) << word_of(query) << " " << exact.signed_distance;
   const Result distance = answer(scene, Query::distance);
   EXPECT_NEAR(*distance.signed_distance, std::max(0.0, exact.signed_distance), 1e-10 * std::max(size_of(scene), exact.signed_distance));
 }
@@ -134,7 +134,7 @@ TEST(RandomPairs, SatAndMprAgreeWithExactArithmetic) {
         method.name = name;
         const Result r = solve(asked, resolve_settings(method, asked));
         if (std::abs(sd) > 1e-12 * size) {
-          EXPECT_EQ(r.intersecting, exact->intersecting) << method_names[static_cast<std::size_t>(name)] << " " << sd;
+          EXPECT_EQ(r.intersecting, exact->intersecting) << word_of(name) << " " << sd;
         }
         if (query == Query::distance) {
           EXPECT_NEAR(*r.signed_distance, std::max(0.0, sd), 1e-10 * size);

@@ -201,7 +201,7 @@ int main(int argc, char** argv) {
   }
   for (const int vertices : {8, 32, 128, 1000})
     for (const Start start : {Start::centres, Start::previous})
-      benchmark::RegisterBenchmark(("coherent/" + std::to_string(vertices) + "/" + std::string(start_names[static_cast<std::size_t>(start)])).c_str(),
+      benchmark::RegisterBenchmark(("coherent/" + std::to_string(vertices) + "/" + std::string(word_of(start))).c_str(),
                                    [=](benchmark::State& state) { coherent(state, vertices, start); })->MinTime(0.1);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;

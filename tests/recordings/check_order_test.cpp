@@ -17,7 +17,7 @@ struct Run {
   MethodName method;
 };
 
-void PrintTo(const Run& run, std::ostream* out) { *out << run.scene << " by " << method_names[static_cast<std::size_t>(run.method)]; }
+void PrintTo(const Run& run, std::ostream* out) { *out << run.scene << " by " << word_of(run.method); }
 
 Recording recorded(const Run& run) {
   SceneFile file = read_scene(read_gallery(GJKDBG_GALLERY).file(run.scene));

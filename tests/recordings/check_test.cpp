@@ -159,11 +159,11 @@ TEST(Check, DistanceQueriesOfOverlapsNameAPointOfBothBodies) {
         continue;  // no method for these bodies
       }
       ++used[static_cast<std::size_t>(name)];
-      EXPECT_EQ(text(check(record(file))), "") << "scene " << k << " by " << method_names[static_cast<std::size_t>(name)];
+      EXPECT_EQ(text(check(record(file))), "") << "scene " << k << " by " << word_of(name);
     }
     if (testing::Test::HasFailure()) break;
   }
-  for (const MethodName name : {MethodName::sat, MethodName::mpr, MethodName::closed_form, MethodName::projections}) EXPECT_GT(used[static_cast<std::size_t>(name)], count / 20) << method_names[static_cast<std::size_t>(name)];
+  for (const MethodName name : {MethodName::sat, MethodName::mpr, MethodName::closed_form, MethodName::projections}) EXPECT_GT(used[static_cast<std::size_t>(name)], count / 20) << word_of(name);
   SceneFile nested = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "distance", "bodies": [
     {"shape": {"type": "box", "half_extents": [2, 2, 2]}}, {"shape": {"type": "box", "half_extents": [0.1, 0.1, 0.1]}, "pose": {"position": [1, 0, 0]}}]})", {});
   change_name(nested.method, MethodName::sat);

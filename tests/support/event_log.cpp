@@ -16,7 +16,7 @@ struct Line {
   }
   void operator()(const recorded::GjkBegan& e) { out << "gjk began along", vector(e.direction); }
   void operator()(const recorded::SupportQueried& e) {
-    out << "support " << e.vertex << " (" << phase_names[static_cast<std::size_t>(e.phase)] << ") along", vector(e.direction);
+    out << "support " << e.vertex << " (" << word_of(e.phase) << ") along", vector(e.direction);
     out << ": w =", vector(e.w);
   }
   void operator()(const recorded::VertexKept& e) { out << "kept " << e.vertex << ": w =", vector(e.w); }
@@ -24,39 +24,39 @@ struct Line {
     out << "simplex", list(e.before), out << " ->", list(e.region);
     if (e.closest.size() > 0) out << ", v =", vector(e.closest);
   }
-  void operator()(const recorded::GjkEnded& e) { out << "gjk ended " << gjk_status_names[static_cast<std::size_t>(e.status)]; }
+  void operator()(const recorded::GjkEnded& e) { out << "gjk ended " << word_of(e.status); }
   void operator()(const recorded::PolytopeSeeded& e) { out << "polytope of", list(e.vertices), out << ", " << e.faces.size() << " faces"; }
   void operator()(const recorded::FaceChosen& e) { out << "face " << e.face << " chosen at " << e.distance; }
   void operator()(const recorded::PolytopeGrown& e) {
     out << "polytope + " << e.vertex << ": -" << e.removed.size() << " +" << e.added.size() << " faces";
   }
   void operator()(const recorded::EpaEnded& e) {
-    out << "epa ended " << epa_status_names[static_cast<std::size_t>(e.status)] << ": depth " << e.depth << " along", vector(e.normal);
+    out << "epa ended " << word_of(e.status) << ": depth " << e.depth << " along", vector(e.normal);
   }
   void operator()(const recorded::MprBegan& e) { out << "mpr began inside at", vector(e.interior); }
   void operator()(const recorded::PortalFound& e) { out << "portal", list(e.vertices), out << " at " << e.distance << " along", vector(e.normal); }
   void operator()(const recorded::MprEnded& e) {
-    out << "mpr ended " << mpr_status_names[static_cast<std::size_t>(e.status)] << ": depth " << e.depth << " along", vector(e.normal);
+    out << "mpr ended " << word_of(e.status) << ": depth " << e.depth << " along", vector(e.normal);
   }
   void operator()(const recorded::SatBegan& e) { out << "sat began: faces " << e.faces_a << " " << e.faces_b << ", edge pairs " << e.edge_pairs; }
   void operator()(const recorded::AxisTested& e) {
-    out << "axis of " << axis_source_names[static_cast<std::size_t>(e.source)] << " along", vector(e.direction), out << ": " << e.distance;
+    out << "axis of " << word_of(e.source) << " along", vector(e.direction), out << ": " << e.distance;
   }
   void operator()(const recorded::PointsProjected& e) { out << "points projected:", vector(e.a), vector(e.b); }
   void operator()(const recorded::SatEnded& e) {
-    out << "sat ended " << sat_status_names[static_cast<std::size_t>(e.status)] << ": " << e.distance << " along", vector(e.normal);
+    out << "sat ended " << word_of(e.status) << ": " << e.distance << " along", vector(e.normal);
   }
   void operator()(const recorded::ClosedFormBegan& e) { out << "closed form of", vector(e.corner), out << " +", vector(e.edge_a), out << " -", vector(e.edge_b); }
   void operator()(const recorded::LinesSolved& e) { out << "lines nearest at " << e.s << " " << e.t; }
   void operator()(const recorded::ClosedFormEnded& e) {
-    out << "closed form ended " << closed_form_status_names[static_cast<std::size_t>(e.status)] << ": v =", vector(e.closest);
+    out << "closed form ended " << word_of(e.status) << ": v =", vector(e.closest);
   }
   void operator()(const recorded::ProjectionsBegan& e) { out << "projections began at", vector(e.point); }
   void operator()(const recorded::PointPredicted& e) { out << "predicted:", vector(e.point); }
-  void operator()(const recorded::ProjectionsEnded& e) { out << "projections ended " << projections_status_names[static_cast<std::size_t>(e.status)] << ": " << e.lower_bound << " to " << e.upper_bound; }
+  void operator()(const recorded::ProjectionsEnded& e) { out << "projections ended " << word_of(e.status) << ": " << e.lower_bound << " to " << e.upper_bound; }
   void operator()(const recorded::CastBegan& e) { out << "cast began: " << e.pairs.size() << " pairs"; }
   void operator()(const recorded::CastAdvanced& e) { out << "at " << e.time << " pair " << e.pair[0] << " " << e.pair[1] << " is " << e.distance << " apart"; }
-  void operator()(const recorded::CastEnded& e) { out << "cast ended " << cast_status_names[static_cast<std::size_t>(e.status)] << " at " << e.time; }
+  void operator()(const recorded::CastEnded& e) { out << "cast ended " << word_of(e.status) << " at " << e.time; }
   void operator()(const recorded::State& e) { out << "state at " << e.time << ": energy " << e.energy; }
   void operator()(const recorded::ContactFound& e) { out << "contact " << e.pair[0] << " " << e.pair[1] << " at", vector(e.point); }
   void operator()(const recorded::ImpulseApplied& e) { out << "impulse " << e.pair[0] << " " << e.pair[1] << ":", vector(e.impulse); }
