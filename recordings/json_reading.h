@@ -1,6 +1,7 @@
 // Strict reading of JSON: every value is checked, and every error says where.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <initializer_list>
@@ -55,6 +56,9 @@ void parse_json_in_parts(std::string_view text, std::string_view list, const std
 /// The candidate nearest to a word, by edit distance; empty when none is near.
 std::string nearest_name(std::string_view word, const std::vector<std::string_view>& candidates);
 
+/// What anything may carry.
+inline constexpr std::array<std::string_view, 5> note_names{"id", "name", "description", "source", "tags"};
+
 /// An object all of whose fields must be named: at the end `finish` refuses those nobody asked for. The fields `id`, `name`,
 /// `description`, `source` and `tags` may stand anywhere.
 class ObjectReader {
@@ -71,7 +75,7 @@ class ObjectReader {
  private:
   const Json& json_;
   const Place& place_;
-  std::vector<std::string_view> known_{"id", "name", "description", "source", "tags"};
+  std::vector<std::string_view> known_{note_names.begin(), note_names.end()};
 };
 
 double read_number(const Json& json, const Place& place);

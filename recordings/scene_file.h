@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,6 +31,7 @@ struct SceneFile {
   Method method;
   std::optional<Expectation> expect;
   std::string id;         ///< "id", anything, as JSON text; empty when absent
+  std::map<std::string, std::string> notes;  ///< by JSON pointer: what anything below the top level carries of `id`, `name`, `description`, `source` and `tags`, a JSON object
   std::filesystem::path directory;  ///< where relative mesh paths start; not written
 };
 

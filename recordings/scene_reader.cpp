@@ -40,6 +40,7 @@ class SceneReader {
     if (const Json* m = o.optional("method")) file_.method = read_method(*m, o.at("method"), dimension_);
     if (const Json* e = o.optional("expect")) expectation(*e, o.at("expect"));
     o.finish();
+    keep_notes(json, "");
     file_.directory = directory_;
     return std::move(file_);
   }
@@ -54,6 +55,19 @@ class SceneReader {
     text("source", file_.scene.source);
     if (const auto it = json.find("id"); it != json.end()) file_.id = it->dump();
     if (const auto it = json.find("tags"); it != json.end()) file_.scene.tags = read_tags(*it, Place(place, "tags"));
+  }
+
+  /// Of what was read and found right. The scene has its own, the bodies' names, and the method's, which is no note.
+  void keep_notes(const Json& json, const std::string& pointer) {
+    if (json.is_array() && (json.empty() || !json[0].is_object())) return;
+    const bool named = pointer.empty() || pointer == "/method" || (pointer.starts_with("/bodies/") && pointer.rfind('/') == std::string_view("/bodies").size());
+    Json notes = Json::object();
+    for (const auto& [key, value] : json.items()) {
+      const bool note = json.is_object() && std::find(note_names.begin(), note_names.end(), key) != note_names.end();
+      if (note && !pointer.empty() && !(named && key == "name")) notes[key] = value;
+      else if (!note && value.is_structured()) keep_notes(value, pointer + "/" + key);
+    }
+    if (!notes.empty()) file_.notes[pointer] = notes.dump();
   }
 
   double at_least(ObjectReader& o, const char* key, double value, double low, double high) {

@@ -183,6 +183,13 @@ Json scene_to_json(const SceneFile& file, MeshNotation notation) {
   }
   if (const Json method = json_of(file.method); !method.empty()) out["method"] = method;
   if (file.expect) out["expect"] = json_of(*file.expect);
+  for (const auto& [pointer, text] : file.notes) {
+    const Json::json_pointer place(pointer);
+    if (!out.contains(place) || !out[place].is_object()) continue;  // written in another way
+    Json noted = Json::parse(text);
+    noted.update(out[place]);
+    out[place] = noted;
+  }
   return out;
 }
 

@@ -103,6 +103,27 @@ TEST(Codec, NumbersReadBackBitForBit) {
   EXPECT_EQ(infinite, "null");
 }
 
+TEST(Codec, NotesAreKeptWhereTheyStand) {
+  const std::string text = R"({"format": "gjk-scene", "version": 1, "id": [7], "name": "top", "dimension": 2, "query": "distance", "bodies": [
+    {"name": "A", "id": 1, "tags": ["t"], "shape": {"type": "sum", "of": [{"type": "circle", "radius": 1, "description": "round"}, {"type": "point", "points": [[0, 0]], "source": "here"}]}},
+    {"shape": {"type": "box", "half_extents": [1, 1]}, "pose": {"position": [3, 0], "description": "beside", "rotation": {"angle": 30, "name": "turned"}}}],
+    "method": {"name": "gjk", "description": "plain"}, "expect": {"intersecting": false, "source": "by hand"}})";
+  const nlohmann::ordered_json given = nlohmann::ordered_json::parse(text);
+  SceneFile file = parse_scene(text, {});
+  const nlohmann::ordered_json written = scene_to_json(file), again = scene_to_json(parse_scene(written.dump(), {}));
+  EXPECT_EQ(written, again);
+  for (const char* note : {"/id", "/bodies/0/name", "/bodies/0/id", "/bodies/0/tags", "/bodies/0/shape/of/0/description", "/bodies/0/shape/of/1/source", "/bodies/1/pose/description", "/bodies/1/pose/rotation/name", "/method/description", "/expect/source"}) {
+    const nlohmann::ordered_json::json_pointer place(note);
+    ASSERT_TRUE(written.contains(place)) << note;
+    EXPECT_EQ(written[place], given[place]);
+  }
+  EXPECT_EQ(written["method"]["name"], "gjk");
+  EXPECT_EQ(nlohmann::ordered_json::parse(recording_to_text(record(file)))["scene"]["bodies"][0]["tags"], given["bodies"][0]["tags"]);
+  file.scene.bodies.pop_back(), file.scene.bodies[0].name.clear(), file.method = {};  // what is no longer there is not noted either
+  const nlohmann::ordered_json changed = scene_to_json(file);
+  for (const char* gone : {"/bodies/1", "/bodies/0/name", "/method"}) EXPECT_FALSE(changed.contains(nlohmann::ordered_json::json_pointer(gone))) << gone;
+}
+
 TEST(Codec, DegreesReadBackToTheSameRadians) {
   RandomScenes random(2);
   for (int i = 0; i < 20000; ++i) {
