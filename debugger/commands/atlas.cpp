@@ -1,10 +1,12 @@
 // atlas: stability where methods fail, into a folder; --gate compares with a kept result.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -25,8 +27,8 @@ struct AtlasCommand {
   std::vector<std::string> methods;
 
   int run() const {
-    const auto kept = gate.empty() ? std::map<std::pair<std::string, std::string>, int>() : read_gate(gate);
     const std::vector<Variant> columns = chosen(variants(true), methods);
+    const Kept kept = gate.empty() ? Kept() : read_gate(gate, columns);
     make_folder(output);
     LabProgress progress;
     const Atlas atlas = make_atlas(quick, columns, std::ref(progress));
@@ -53,42 +55,55 @@ struct AtlasCommand {
   }
 
   /// Verdicts by family and method.
-  static std::map<std::pair<std::string, std::string>, int> read_gate(const std::string& file) {
+  using Kept = std::map<std::pair<std::string, std::string>, Verdict>;
+
+  /// Of the methods that will be measured.
+  static Kept read_gate(const std::string& file, const std::vector<Variant>& columns) {
     const std::string text = read_text_file(file);
-    std::map<std::pair<std::string, std::string>, int> kept;
+    Kept kept;
+    const auto each = [](const Json& json, const Place& place, const auto& read) {
+      if (!json.is_array()) reject(place, "wrong-type", "must be an array");
+      for (std::size_t i = 0; i < json.size(); ++i) read(ObjectReader(json[i], Place(place, i)), Place(place, i));
+    };
     try {
       const Json json = parse_json(text);
       const Place root;
-      if (!json.is_object() || json.value("format", "") != "gjk-atlas" || !json.contains("families")) reject(Place(root, "format"), "wrong-format", "must be \"gjk-atlas\"");
-      const Place families(root, "families");
-      for (std::size_t f = 0; f < json["families"].size(); ++f) {
-        const Place here(families, f);
-        ObjectReader family(json["families"][f], here);
-        const std::string name = read_string(json["families"][f].value("name", Json()), Place(here, "name"));
-        const Json& cells = family.required("cells");
-        for (std::size_t c = 0; c < cells.size(); ++c) {
-          const Place at(here, c);
-          ObjectReader cell(cells[c], at);
-          kept[{name, read_string(cell.required("method"), cell.at("method"))}] = static_cast<int>(read_enum(cell.required("verdict"), cell.at("verdict"), verdict_names));
-        }
-      }
+      ObjectReader top(json, root);
+      if (read_string(top.required("format"), top.at("format")) != "gjk-atlas") reject(top.at("format"), "wrong-format", "must be \"gjk-atlas\"");
+      read_integer(top.required("version"), top.at("version"), 1, 1);
+      const Place at_families = top.at("families");
+      each(top.required("families"), at_families, [&](ObjectReader family, const Place& here) {
+        const std::string name = read_string(family.required("name"), Place(here, "name"));
+        const Place at_cells(here, "cells");
+        each(family.required("cells"), at_cells, [&](ObjectReader cell, const Place& at) {
+          const std::string method = read_string(cell.required("method"), Place(at, "method"));
+          const auto verdict = static_cast<Verdict>(read_enum(cell.required("verdict"), Place(at, "verdict"), verdict_names));
+          if (std::any_of(columns.begin(), columns.end(), [&](const Variant& v) { return v.name == method; })) kept[{name, method}] = verdict;
+        });
+      });
+      if (kept.empty()) reject(at_families, "wrong-count", "has no cell of these methods: nothing to compare with");
     } catch (const Error& e) {
       throw e.in(file);
     }
     return kept;
   }
 
-  /// Whether any cell is worse than it was.
-  static bool compare(const Atlas& atlas, const std::map<std::pair<std::string, std::string>, int>& kept) {
+  /// Whether any cell that was kept is worse now, or not there to be compared.
+  static bool compare(const Atlas& atlas, const Kept& kept) {
+    const auto seriousness = [](Verdict v) { return v == Verdict::not_applicable ? 0 : static_cast<int>(v); };
     bool worse = false;
-    for (std::size_t f = 0; f < atlas.families.size(); ++f)
-      for (std::size_t m = 0; m < atlas.methods.size(); ++m) {
-        const auto was = kept.find({atlas.families[f].name, atlas.methods[m].name});
-        const int now = static_cast<int>(atlas.cells[f][m].verdict);
-        if (was == kept.end() || now <= was->second || atlas.cells[f][m].verdict == Verdict::not_applicable) continue;
-        worse = true;
-        std::cout << "worse than kept: " << atlas.families[f].name << ", " << atlas.methods[m].name << ": " << word_of(static_cast<Verdict>(was->second)) << " -> " << word_of(atlas.cells[f][m].verdict) << "\n";
-      }
+    for (const auto& [cell, was] : kept) {
+      std::optional<Verdict> now;
+      for (std::size_t f = 0; f < atlas.families.size(); ++f)
+        for (std::size_t m = 0; m < atlas.methods.size(); ++m)
+          if (atlas.families[f].name == cell.first && atlas.methods[m].name == cell.second) now = atlas.cells[f][m].verdict;
+      const bool given_up_on = now == Verdict::not_applicable && was != Verdict::not_applicable;
+      if (now && !given_up_on && seriousness(*now) <= seriousness(was)) continue;
+      worse = true;
+      std::cout << (now ? "worse than kept: " : "kept, but not measured: ") << cell.first << ", " << cell.second << ": " << word_of(was);
+      if (now) std::cout << " -> " << word_of(*now);
+      std::cout << "\n";
+    }
     return worse;
   }
 };

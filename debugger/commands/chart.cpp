@@ -1,5 +1,6 @@
 // chart: speed against accuracy, into a folder.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <csignal>
@@ -37,11 +38,25 @@ bool LabProgress::operator()(double share) {
   return !interrupted;
 }
 
+namespace {
+
+/// Whole or not at all; an older picture is none of these numbers.
+bool draw(const std::function<std::string(const std::string&, const std::string&)>& commands, const std::string& terminal, const std::string& target) {
+  const std::string part = target + ".part";
+  std::error_code error;
+  const bool drawn = run_gnuplot(commands(terminal, part));
+  if (drawn) std::filesystem::rename(part, target, error);
+  if (drawn && !error) return true;
+  std::filesystem::remove(part, error), std::filesystem::remove(target, error);
+  return false;
+}
+
+}  // namespace
+
 void draw_both(const std::function<std::string(const std::string&, const std::string&)>& commands, const std::filesystem::path& stem, int width, int height) {
-  const std::string svg = stem.string() + ".svg", png = stem.string() + ".png";
-  const std::string size = " " + std::to_string(width) + "," + std::to_string(height);
-  const bool drawn = run_gnuplot(commands("svg size" + size + " font 'Inter,12' background '#ffffff'", svg)) && run_gnuplot(commands("pngcairo size" + size + " font 'Inter,11'", png));
-  if (!drawn) std::cerr << "gjkdbg: gnuplot is not installed or failed: no SVG and PNG, only the numbers\n";
+  const std::string size = " size " + std::to_string(width) + "," + std::to_string(height);
+  const bool svg = draw(commands, "svg" + size + " font 'Inter,12' background '#ffffff'", stem.string() + ".svg"), png = draw(commands, "pngcairo" + size + " font 'Inter,11'", stem.string() + ".png");
+  if (!svg || !png) std::cerr << "gjkdbg: " << stem.filename().string() << ": gnuplot is not installed or failed: not drawn, only the numbers\n";
 }
 
 namespace {
@@ -61,6 +76,7 @@ struct ChartCommand {
     for (const ChartPicture& picture : chart_pictures())
       if (picture.has_something(chart)) draw_both([&](const std::string& terminal, const std::string& file) { return picture.drawing(chart, terminal, file); }, folder / picture.name, picture.width, picture.height);
     print(chart);
+    if (std::all_of(chart.panels.begin(), chart.panels.end(), [](const ChartPanel& panel) { return panel.points.empty(); })) std::cerr << "gjkdbg: nothing to chart: none of these methods answers in these families\n";
     return exit_done;
   }
 
@@ -99,7 +115,7 @@ void add_chart(CLI::App& app, Status& status) {
   CLI::App* command = app.add_subcommand("chart", "Speed against accuracy: SVG, PNG, CSV, JSON into a folder");
   command->add_flag("--quick", options->options.quick, "fewer pairs and tolerances");
   command->add_option("--families", options->options.families, "only these, by name")->delimiter(',');
-  command->add_option("--methods", options->options.methods, "only methods whose names begin so: default, johnson, sat, …")->delimiter(',');
+  command->add_option("--methods", options->options.methods, "only methods whose names begin so: default, johnson, sat, …");
   command->add_option("-o,--output", options->output, "folder (chart)")->check(named());
   command->callback([options, &status] { status = options->run(); });
 }

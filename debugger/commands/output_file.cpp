@@ -101,6 +101,7 @@ void make_folder(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (error) throw Error("cannot-write", "cannot be made: " + error.message(), path);
+  const OutputFile first((std::filesystem::path(path) / "first").string());  // fails before the work and not after it, and leaves nothing
 }
 
 }  // namespace gjkdbg

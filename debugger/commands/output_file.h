@@ -30,7 +30,7 @@ class OutputFile {
 /// All of it, at once.
 void write_output(const std::string& path, std::string_view text);
 
-/// A folder and those above it, if they are not there. Throws Error.
+/// A folder and those above it, if they are not there. Throws Error, also when nothing can be written in it.
 void make_folder(const std::string& path);
 
 }  // namespace gjkdbg

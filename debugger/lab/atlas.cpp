@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <functional>
 #include <limits>
 
@@ -11,16 +10,25 @@
 
 #include "algo/solve.h"
 #include "debugger/lab/child.h"
+#include "debugger/lab/shrink.h"
 #include "recordings/json_writing.h"
 #include "shapes/error.h"
 
 namespace gjkdbg {
 namespace {
 
-std::string three_digits(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", x);
+std::string digits_of(double x, int digits) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", digits, x);
   return text;
+}
+std::string three_digits(double x) { return digits_of(x, 3); }
+
+/// "this for that", with as many digits as tell them apart, three at least.
+std::string beside(double x, double y) {
+  int digits = 3;
+  while (digits < 17 && x != y && digits_of(x, digits) == digits_of(y, digits)) ++digits;
+  return digits_of(x, digits) + " for " + digits_of(y, digits);
 }
 
 /// What was answered, of whichever method.
@@ -117,11 +125,11 @@ std::string cause(const Variant& variant, Verdict verdict) {
   if (variant.peer) {
     if (verdict == Verdict::crashed) return "an assertion, a broken address or an endless loop inside the library";
     if (variant.name == "Bullet (float)") return "its scalars are single, and its gap of rest is an absolute length";
-    if (variant.name == "libccd MPR") return "MPR leaves along the line between the centres: no shortest way out";
+    if (variant.name == "libccd MPR" && verdict != Verdict::wrong_class) return "MPR leaves along the line between the centres: no shortest way out";
     if (variant.name == "ODE") return "its routines are made for contacts of bodies that move: depth along one of a few axes";
     return "its stopping rules are absolute lengths, and its simplex is judged in plain arithmetic";
   }
-  if (variant.method.name == MethodName::mpr) return "MPR leaves through the portal that the line between the centres meets: an upper bound of the depth, and it says so";
+  if (variant.method.name == MethodName::mpr && verdict != Verdict::wrong_class) return "MPR leaves through the portal that the line between the centres meets: an upper bound of the depth, and it says so";
   if (variant.method.scalar == Scalar::float_precision) return "single precision carries 7 digits of the bodies' sizes, and the answer lies below them";
   return verdict == Verdict::gave_up ? "its steps no longer make progress, and it says so" : "rounding decides, and nothing notices";
 }
@@ -132,49 +140,20 @@ std::string sentence(const AtlasFamily& family, const Variant& variant, const At
   const bool cast = cell.scene.query == Query::cast, missed = cast ? std::isfinite(cell.exact) : cell.exact <= 0;
   if (cell.verdict == Verdict::wrong_class && missed) verdict = "mistakes overlapping for apart";
   if (cell.verdict == Verdict::lied && cast) verdict = "stops too late";
-  return variant.name + " " + verdict + " (" + three_digits(cell.value) + " for " + three_digits(cell.exact) + "): " + cause(variant, cell.verdict) + ". Here: " + family.what + ".";
+  return variant.name + " " + verdict + " (" + beside(cell.value, cell.exact) + "): " + cause(variant, cell.verdict) + ". Here: " + family.what + ".";
 }
 
-/// The simplest scene that still fails like this: every number of the poses and points rounded to as few digits as do, body 0 brought to the origin.
-/// A step is kept when the verdict against the reference stays as it is.
-Scene shrunk(const Variant& variant, Scene scene, Verdict verdict) {
-  const auto still = [&](const Scene& candidate) {
-    try {
-      for (const Body& body : candidate.bodies) validate(body.shape, candidate.dimension);
-      return judge_case(variant, candidate, reference(candidate).signed_distance).verdict == verdict;
-    } catch (const Error&) {
-      return false;
-    }
-  };
-  const auto attempt = [&](const std::function<void(Scene&)>& change) {
-    Scene candidate = scene;
-    change(candidate);
-    if (still(candidate)) scene = std::move(candidate);
-  };
-  if (!still(scene)) return scene;
-  attempt([](Scene& s) {
-    const AnyVector offset = s.bodies[0].pose.position;
-    for (Body& body : s.bodies) body.pose.position -= offset;
-  });
-  const auto drop_points = [&](std::size_t b) {
-    const auto* set = std::get_if<PointSet>(&scene.bodies[b].shape.geometry);
-    for (std::size_t i = set ? set->points.size() : 0; i-- > 1;)
-      attempt([&](Scene& s) {
-        auto& points = std::get<PointSet>(s.bodies[b].shape.geometry).points;
-        if (i < points.size()) points.erase(points.begin() + static_cast<std::ptrdiff_t>(i));
-      });
-  };
-  for (std::size_t b = 0; b < 2; ++b) drop_points(b);
-  for (int digits = 1; digits <= 8; ++digits) {
-    const auto rounded = [&](double x) {
-      char text[40];
-      std::snprintf(text, sizeof text, "%.*g", digits, x);
-      return std::strtod(text, nullptr);
-    };
-    for (std::size_t b = 0; b < 2; ++b)
-      for (int i = 0; i < scene.dimension; ++i) attempt([&](Scene& s) { s.bodies[b].pose.position[i] = rounded(s.bodies[b].pose.position[i]); });
-  }
-  return scene;
+/// The cell's worst scene made as simple as fails like this, with what is answered there. It stays one of its family: about as deep, or as far apart.
+void simplify(const Variant& variant, AtlasCell& cell) {
+  const Verdict verdict = cell.verdict;
+  const double was = cell.exact;
+  const auto alike = [&](double exact) { return was == 0 ? exact == 0 : exact / was >= 0.5 && exact / was <= 2; };
+  const auto still = [&](const Scene& candidate) { return alike(reference(candidate).signed_distance) && judge_case(variant, candidate, reference(candidate).signed_distance).verdict == verdict; };
+  const bool slow = verdict == Verdict::crashed;  // each time until the end of its patience
+  cell.scene = shrunk(cell.scene, still, slow ? 4 : 400);
+  if (slow) return;
+  const double exact = reference(cell.scene).signed_distance;
+  if (const Judged judged = judge_case(variant, cell.scene, exact); judged.verdict == verdict) cell.value = judged.value, cell.exact = exact;
 }
 
 AtlasCell sweep(const AtlasFamily& family, const Variant& variant) {
@@ -189,8 +168,8 @@ AtlasCell sweep(const AtlasFamily& family, const Variant& variant) {
     first = false;
   }
   if (!failed(cell.verdict)) return cell;
+  if (cell.scene.query != Query::cast) simplify(variant, cell);
   cell.why = sentence(family, variant, cell);
-  if (cell.verdict != Verdict::crashed && cell.scene.query != Query::cast) cell.scene = shrunk(variant, cell.scene, cell.verdict);
   return cell;
 }
 

@@ -52,7 +52,7 @@ struct AtlasCell {
   Verdict verdict = Verdict::right;
   double worst_error = 0;  ///< relative to the size
   double parameter = 0;    ///< of the worst case
-  double value = 0, exact = 0;  ///< what it answered there, and the truth
+  double value = 0, exact = 0;  ///< what it answered in `scene`, and the truth
   Scene scene;             ///< the worst case; where the cell failed, made as simple as still fails the same way
   std::string why;         ///< a sentence, where the cell failed
 };

@@ -16,11 +16,32 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
+/// What is known of how far the measuring is.
+class Work {
+ public:
+  Work(double total, const std::function<bool(double)>& progress) : total_(total), progress_(progress) {}
+  /// False: stop.
+  bool done(double share) { return progress_(std::min((done_ += share) / total_, 0.999)); }
+
+ private:
+  double total_, done_ = 0;
+  const std::function<bool(double)>& progress_;
+};
+
 using Pairs = std::vector<std::unique_ptr<PreparedPair>>;
 
 Pairs prepared(const std::vector<Scene>& scenes, Scalar scalar) {
   Pairs pairs;
   for (const Scene& scene : scenes) pairs.push_back(prepare(scene.bodies[0], scene.bodies[1], scene.dimension, scalar));
+  return pairs;
+}
+/// The same, which takes its time with large hulls. None: stopped.
+Pairs prepared(const std::vector<Scene>& scenes, Work& work, double share) {
+  Pairs pairs;
+  for (const Scene& scene : scenes) {
+    pairs.push_back(prepare(scene.bodies[0], scene.bodies[1], scene.dimension, Scalar::double_precision));
+    if (!work.done(share / static_cast<double>(scenes.size()))) return {};
+  }
   return pairs;
 }
 
@@ -140,10 +161,20 @@ std::vector<Reference> meant(const std::vector<PriceRow>& rows, const PriceRow& 
   return out;
 }
 
-PricePoint price_of(const std::vector<PriceRow>& rows, const PriceRow& row, int rounds) {
+/// About how long a row takes to be made ready, beside a method on a family: large hulls get a table of directions.
+double weight_of(const PriceRow& row) {
+  double vertices = 0;
+  for (const Scene& scene : row.scenes)
+    if (const auto* set = std::get_if<PointSet>(&scene.bodies[0].shape.geometry)) vertices += static_cast<double>(set->points.size());
+  return 1 + vertices / 8000;
+}
+
+/// Nothing: stopped.
+std::optional<PricePoint> price_of(const std::vector<PriceRow>& rows, const PriceRow& row, int rounds, Work& work) {
   PricePoint point{row.what, 0, 0, 0, row.query == Query::penetration};
   const std::vector<Reference> truth = meant(rows, row);
-  const Pairs pairs = prepared(row.scenes, Scalar::double_precision);
+  const Pairs pairs = prepared(row.scenes, work, weight_of(row));
+  if (pairs.empty()) return std::nullopt;
   std::vector<Settings> settings;
   for (std::size_t i = 0; i < row.scenes.size(); ++i) {
     settings.push_back(resolve_settings({}, row.scenes[i]));
@@ -196,20 +227,23 @@ LadderPoint ladder_point(const std::string& shapes, const std::vector<Scene>& sc
   return point;
 }
 
+// How long each takes, beside a method on a family.
+constexpr double weight_of_rung = 1, weight_of_motion = 1, rungs_of_ladder = 4 * (7 + 8);
+
 /// GJK's iterations by distance, with plain steps, both momenta and Newton's directions, stopped where the paper stops: at a duality gap 2 v.(v - w) of 1e-8. With the
-/// plane's bound p = v.w / |v| that is |v| - p <= 5e-9 / |v|, relative to |v| a tolerance of 5e-9 / |v|^2.
-std::vector<LadderPoint> ladder(bool quick, int rounds) {
+/// plane's bound p = v.w / |v| that is |v| - p <= 5e-9 / |v|, relative to |v| a tolerance of 5e-9 / |v|^2. False: stopped.
+bool ladder(bool quick, int rounds, Work& work, std::vector<LadderPoint>& out) {
   struct Rung { double distance; std::optional<std::array<double, 2>> plain, nesterov; };
   static constexpr Rung rungs[] = {{-0.05, {{6, 2}}, {{6, 3}}}, {-0.001, {}, {}}, {1e-4, {}, {}}, {0.001, {{16, 5}}, {{7, 2}}}, {0.01, {}, {}}, {0.1, {}, {}}, {1, {{4, 1}}, {{13, 4}}}};
   struct Hulls { int vertices; double plain, nesterov; };
   static constexpr Hulls hulls[] = {{33, 800, 800}, {141, 1200, 1000}, {626, 1800, 1400}, {2500, 4100, 2700}};
-  std::vector<LadderPoint> out;
   for (const Rung& rung : rungs) {
     const std::vector<Scene> scenes = ladder_ellipsoids(quick ? 60 : 400, rung.distance);
     const Pairs pairs = prepared(scenes, Scalar::double_precision);
     for (int way = 0; way < 4; ++way) {
       out.push_back(ladder_point("ellipsoids", scenes, pairs, rung.distance, way, rounds));
       if (way < 2) out.back().published = way == 0 ? rung.plain : rung.nesterov;
+      if (!work.done(weight_of_rung)) return false;
     }
   }
   for (const Hulls& hull : hulls)
@@ -220,9 +254,10 @@ std::vector<LadderPoint> ladder(bool quick, int rounds) {
         out.push_back(ladder_point("hulls of " + std::to_string(hull.vertices), scenes, pairs, distance, way, rounds));
         out.back().vertices = hull.vertices;
         if (way < 2 && distance < 0.1) out.back().published_nanoseconds = way == 0 ? hull.plain : hull.nesterov;
+        if (!work.done(weight_of_rung)) return false;
       }
     }
-  return out;
+  return true;
 }
 
 }  // namespace
@@ -233,8 +268,10 @@ Chart make_chart(const ChartOptions& options, const std::function<bool(double)>&
   const std::vector<Variant> all = chosen(variants(), options.methods);
   const std::vector<ChartFamily> families = chart_families(count, options.families);
   const std::vector<double> tolerances = quick ? std::vector<double>{1e-2, 1e-6, 1e-10, 1e-14} : std::vector<double>{1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14};
-  const double total = static_cast<double>(families.size() * all.size());
-  double done = 0;
+  const std::vector<PriceRow> rows = usual ? price_rows(count) : std::vector<PriceRow>();
+  double others = usual ? weight_of_rung * rungs_of_ladder + weight_of_motion * motion_point_count(quick) : 0;
+  for (const PriceRow& row : rows) others += weight_of(row);
+  Work work(static_cast<double>(families.size() * all.size()) + others, progress);
   Chart chart;
   chart.methods = all;
   for (const ChartFamily& family : families) {
@@ -243,15 +280,18 @@ Chart make_chart(const ChartOptions& options, const std::function<bool(double)>&
     chart.panels.push_back({family.name, family.title, static_cast<int>(family.scenes.size()), {}, family.scenes});
     for (const Variant& variant : all) {
       measure_family(family, references, variant, tolerances, rounds, chart.panels.back().points);
-      if (!progress(++done / (total + 1))) return mark_front(chart.panels.back().points), chart;
+      if (!work.done(1)) return mark_front(chart.panels.back().points), chart;
     }
     mark_front(chart.panels.back().points);
   }
   if (usual) {
-    const std::vector<PriceRow> rows = price_rows(count);
-    for (const PriceRow& row : rows) chart.price.push_back(price_of(rows, row, rounds));
-    chart.ladder = ladder(quick, rounds);
-    chart.motion = motion_points(quick);
+    for (const PriceRow& row : rows) {
+      const std::optional<PricePoint> point = price_of(rows, row, rounds, work);
+      if (!point) return chart;
+      chart.price.push_back(*point);
+    }
+    if (!ladder(quick, rounds, work, chart.ladder)) return chart;
+    chart.motion = motion_points(quick, [&] { return work.done(weight_of_motion); });
   }
   progress(1);
   return chart;

@@ -157,10 +157,12 @@ std::string errors_and_times() {
 /// Families of pairs, a panel each: nanoseconds over what `x` is, both logarithmic.
 std::string families(const Chart& chart, const ChartPicture& picture, const std::string& terminal, const std::string& file, const std::string& title, const std::string& note, const std::string& axis,
                      double (*x)(const ChartPoint&), bool front) {
-  Page page(terminal, file, picture, chart.panels.size(), 3);
+  const auto drawn = [&](const ChartPanel& panel) { return std::any_of(panel.points.begin(), panel.points.end(), [&](const ChartPoint& p) { return x(p) >= 0; }); };
+  Page page(terminal, file, picture, static_cast<std::size_t>(std::count_if(chart.panels.begin(), chart.panels.end(), drawn)), 3);
   page.title(title, note);
   page.tell(errors_and_times());
   for (const ChartPanel& panel : chart.panels) {
+    if (!drawn(panel)) continue;
     const auto dot = [&](const ChartPoint& p) -> std::optional<Dot> { return x(p) < 0 ? std::nullopt : std::optional(Dot{std::max(x(p), smallest_drawn), p.nanoseconds * 1e-9}); };
     std::vector<Curve> curves = curves_of(panel.points, &ChartPoint::variant, dot);
     Curve best{"the front: nothing is both faster and more accurate", {"#000000"}, {}, Curve::Drawn::rings};
@@ -178,20 +180,28 @@ std::string ladder_picture(const Chart& chart, const std::string& terminal, cons
 std::string price_picture(const Chart& chart, const std::string& terminal, const std::string& file);
 std::string motion_picture(const Chart& chart, const std::string& terminal, const std::string& file);
 
-constexpr ChartPicture pictures[] = {{"chart", 1400, 1100, [](const Chart& c) { return !c.panels.empty(); }, error_picture},
-                                     {"gap", 1400, 1100, [](const Chart& c) { return !c.panels.empty(); }, gap_picture},
-                                     {"ladder", 1400, 560, [](const Chart& c) { return !c.ladder.empty(); }, ladder_picture},
+double error_of(const ChartPoint& p) { return p.worst_error; }
+double gap_of(const ChartPoint& p) { return p.worst_gap > 0 ? p.median_gap : -1; }  ///< of the certified bounds; other libraries have none
+
+template <double (*x)(const ChartPoint&)>
+bool has_dots(const Chart& chart) {
+  return std::any_of(chart.panels.begin(), chart.panels.end(), [](const ChartPanel& panel) { return std::any_of(panel.points.begin(), panel.points.end(), [](const ChartPoint& p) { return x(p) >= 0; }); });
+}
+
+constexpr ChartPicture pictures[] = {{"chart", 1400, 1100, has_dots<error_of>, error_picture},
+                                     {"gap", 1400, 1100, has_dots<gap_of>, gap_picture},
+                                     {"ladder", 1400, 560, [](const Chart& c) { return !c.ladder.empty() && c.ladder.back().vertices > 0; }, ladder_picture},
                                      {"price", 1400, 560, [](const Chart& c) { return !c.price.empty(); }, price_picture},
                                      {"motion", 1400, 520, [](const Chart& c) { return !c.motion.empty(); }, motion_picture}};
 
 std::string error_picture(const Chart& chart, const std::string& terminal, const std::string& file) {
   return families(chart, pictures[0], terminal, file, "Speed against accuracy", "The time of a query over the worst error outside the certified bounds, a dot a tolerance. Left and low is good. Dashed: single precision; greys: other libraries.",
-                  "worst error, of the size", [](const ChartPoint& p) { return p.worst_error; }, true);
+                  "worst error, of the size", error_of, true);
 }
 
 std::string gap_picture(const Chart& chart, const std::string& terminal, const std::string& file) {
   return families(chart, pictures[1], terminal, file, "What it takes to be sure", "The time of a query over the gap between its certified bounds (the median), a dot a tolerance. Other libraries have no bounds. Dashed: single precision.",
-                  "gap between the bounds, of the size", [](const ChartPoint& p) { return p.worst_gap > 0 ? p.median_gap : -1; }, false);
+                  "gap between the bounds, of the size", gap_of, false);
 }
 
 /// Iterations on ellipsoids by distance, beside those published; on hulls by their vertices, and the time, beside the published one.
@@ -245,17 +255,17 @@ std::string price_picture(const Chart& chart, const std::string& terminal, const
   std::string out = "set encoding utf8\nset micro\nset terminal " + terminal + "\nset output " + quoted(file) + "\nunset key\nset border 1 lc rgb '#8a93a0'\nset tics nomirror scale 0.5 textcolor rgb '#30363f' font ',11'\n";
   out += "set label 1 'The price of modelling too much' at screen " + number_text(24 / width) + "," + number_text(1 - 24 / height) + " font ',15' textcolor rgb '#14171d'\n";
   out += "set label 2 'The same pairs, modelled as they need and as they do not: time a query, supports asked for, and the worst error against what was meant.' at screen " + number_text(24 / width) + "," + number_text(1 - 50 / height) + " font ',10' textcolor rgb '#5a6472'\n";
-  out += "set lmargin at screen 0.24\nset rmargin at screen 0.80\nset tmargin at screen " + number_text(1 - 76 / height) + "\nset bmargin at screen " + number_text(60 / height) + "\nset format x '%.0s %cs'\nset grid xtics lc rgb '#e3e7ec' lt 1\nset xrange [0:*]\nset xtics add ('0' 0)\nset style fill solid noborder\n";
+  out += "set lmargin at screen 0.24\nset rmargin at screen 0.80\nset tmargin at screen " + number_text(1 - 76 / height) + "\nset bmargin at screen " + number_text(60 / height) + "\nset format x '%g ns'\nset grid xtics lc rgb '#e3e7ec' lt 1\nset xrange [0:*]\nset xtics add ('0' 0)\nset style fill solid noborder\n";
   std::string tics, data;
   const auto rows = static_cast<int>(chart.price.size());
   for (int i = 0; i < rows; ++i) {
     const PricePoint& p = chart.price[static_cast<std::size_t>(i)];
     tics += (i > 0 ? ", " : "") + quoted(p.what) + " " + std::to_string(-i);
     const std::string error = p.error_known ? (p.worst_error > 0 ? "error " + number_text(p.worst_error, "%.2g") : "no error") : "";
-    out += "set label " + std::to_string(i + 10) + " " + quoted("  " + number_text(p.nanoseconds, "%.0f") + " ns, " + number_text(p.supports, "%.1f") + " supports" + (error.empty() ? "" : ", " + error)) + " at " + number_text(p.nanoseconds * 1e-9) + "," +
+    out += "set label " + std::to_string(i + 10) + " " + quoted("  " + number_text(p.nanoseconds, "%.0f") + " ns, " + number_text(p.supports, "%.1f") + " supports" + (error.empty() ? "" : ", " + error)) + " at " + number_text(p.nanoseconds) + "," +
            std::to_string(-i) + " font ',10' textcolor rgb '#30363f'\n";
     const bool spheres = p.what.find("hulls") != std::string::npos || p.what.starts_with("spheres"), flat = p.what.find("2D") != std::string::npos || p.what.find("slabs") != std::string::npos;
-    data += "0 " + std::to_string(-i) + " 0 " + number_text(p.nanoseconds * 1e-9) + " " + number_text(-i - 0.33) + " " + number_text(-i + 0.33) + (spheres ? " 0x4C9BE8" : flat ? " 0xE8A33D" : " 0x2FBF8F") + "\n";
+    data += "0 " + std::to_string(-i) + " 0 " + number_text(p.nanoseconds) + " " + number_text(-i - 0.33) + " " + number_text(-i + 0.33) + (spheres ? " 0x4C9BE8" : flat ? " 0xE8A33D" : " 0x2FBF8F") + "\n";
   }
   out += "set yrange [" + number_text(-rows + 0.4) + ":0.6]\nset ytics scale 0 (" + tics + ")\n";
   return out + "plot '-' using 1:2:3:4:5:6:7 with boxxyerror lc rgb variable\n" + data + "e\n";
@@ -282,7 +292,7 @@ std::string motion_picture(const Chart& chart, const std::string& terminal, cons
 std::span<const ChartPicture> chart_pictures() { return pictures; }
 
 bool run_gnuplot(const std::string& commands) {
-  std::FILE* pipe = popen("gnuplot 2>/dev/null", "w");
+  std::FILE* pipe = popen("trap '' INT; exec gnuplot 2>/dev/null", "w");  // Ctrl-C ends the measuring, not the drawing of what was measured
   if (!pipe) return false;
   const bool written = std::fwrite(commands.data(), 1, commands.size(), pipe) == commands.size();
   return pclose(pipe) == 0 && written;

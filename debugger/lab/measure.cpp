@@ -36,17 +36,38 @@ std::vector<Variant> variants(bool casts) {
   return out;
 }
 
-std::vector<Variant> chosen(const std::vector<Variant>& all, const std::vector<std::string>& names) {
-  if (names.empty()) return all;
-  const auto lower = [](std::string text) {
-    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return text;
-  };
+namespace {
+
+std::string lower(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// "johnson,sat, float" are "johnson" and "sat, float": what follows a comma is a name of its own, but for the scalar.
+std::vector<std::string> apart(const std::vector<std::string>& lists) {
+  std::vector<std::string> names;
+  for (const std::string& list : lists)
+    for (std::size_t from = 0; from <= list.size();) {
+      const std::size_t comma = std::min(list.find(',', from), list.size());
+      const std::size_t begin = std::min(list.find_first_not_of(' ', from), comma);
+      const std::string name = list.substr(begin, comma - begin);
+      if (from > 0 && lower(name) == "float") names.back() += ", float";
+      else names.push_back(name);
+      from = comma + 1;
+    }
+  return names;
+}
+
+}  // namespace
+
+std::vector<Variant> chosen(const std::vector<Variant>& all, const std::vector<std::string>& lists) {
+  if (lists.empty()) return all;
+  const std::vector<std::string> names = apart(lists);
   std::vector<bool> wanted(all.size(), false);
   for (const std::string& name : names) {
     bool found = false;
     for (std::size_t i = 0; i < all.size(); ++i)
-      if (lower(name) == "default" ? i == 0 : lower(all[i].name).starts_with(lower(name))) wanted[i] = found = true;
+      if (name.empty() ? false : lower(name) == "default" ? i == 0 : lower(all[i].name).starts_with(lower(name))) wanted[i] = found = true;
     if (found) continue;
     std::string list = "default";
     for (const Variant& v : all) list += "; " + v.name;

@@ -19,7 +19,7 @@ struct Variant {
 /// Every method for signed distances there is, in both scalars, and every library this was built with; `casts`: and the methods that only casts
 /// have. (Of a cast GJK's are conservative advancement, with GJK inside.)
 std::vector<Variant> variants(bool casts = false);
-/// Those whose names begin with one of `names`, whatever the case ("default": the first alone); all when there are none.
+/// Those whose names begin with one of `names`, whatever the case ("default": the first alone); all when there are none. Each may be several, with commas between.
 /// Throws Error for a name that none has.
 std::vector<Variant> chosen(const std::vector<Variant>& all, const std::vector<std::string>& names);
 /// Whether the method takes such bodies at all. (SAT: polytopes.) Libraries are asked by `Peer::prepare`.

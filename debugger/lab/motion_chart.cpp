@@ -82,7 +82,8 @@ double nanoseconds(const std::function<void()>& run, int rounds) {
   return times[times.size() / 2];
 }
 
-void cast_points(const std::string& family, bool quick, std::vector<MotionPoint>& points) {
+/// False: stopped.
+bool cast_points(const std::string& family, bool quick, const std::function<bool()>& go_on, std::vector<MotionPoint>& points) {
   const std::vector<CastScene> scenes = cast_scenes(family, quick ? 20 : 100);
   for (const MethodName name : {MethodName::conservative_advancement, MethodName::root_finding, MethodName::ray_cast}) {
     if (name == MethodName::ray_cast && family == "boxes, turning") continue;
@@ -105,12 +106,14 @@ void cast_points(const std::string& family, bool quick, std::vector<MotionPoint>
       };
       point.nanoseconds = nanoseconds(all, quick ? 3 : 9) / static_cast<double>(scenes.size());
       points.push_back(std::move(point));
+      if (!go_on()) return false;
     }
   }
+  return true;
 }
 
 /// A free box that tumbles: nothing acts on it, so its energy may not change.
-void integrator_points(bool quick, std::vector<MotionPoint>& points) {
+bool integrator_points(bool quick, const std::function<bool()>& go_on, std::vector<MotionPoint>& points) {
   for (const Integrator integrator : {Integrator::explicit_euler, Integrator::semi_implicit_euler, Integrator::rk4})
     for (const double step : {0.04, 0.02, 0.01, 0.005}) {
       SceneFile file;
@@ -128,15 +131,20 @@ void integrator_points(bool quick, std::vector<MotionPoint>& points) {
         }
       point.nanoseconds = nanoseconds([&] { (void)solve(file.scene, settings); }, quick ? 3 : 21) / file.scene.motion->steps;
       points.push_back(std::move(point));
+      if (!go_on()) return false;
     }
+  return true;
 }
 
 }  // namespace
 
-std::vector<MotionPoint> motion_points(bool quick) {
+int motion_point_count(bool quick) { return 8 * (quick ? 2 : 5) + 12; }
+
+std::vector<MotionPoint> motion_points(bool quick, const std::function<bool()>& go_on) {
   std::vector<MotionPoint> points;
-  for (const char* family : {"balls", "boxes", "boxes, turning"}) cast_points(family, quick, points);
-  integrator_points(quick, points);
+  for (const char* family : {"balls", "boxes", "boxes, turning"})
+    if (!cast_points(family, quick, go_on, points)) return points;
+  integrator_points(quick, go_on, points);
   return points;
 }
 

@@ -1,6 +1,7 @@
 // Motion, speed against accuracy: the cast's methods at several tolerances, the integrators at several steps.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,9 @@ struct MotionPoint {
   double queries = 0;       ///< supports a cast; 0 for integrators
 };
 
-std::vector<MotionPoint> motion_points(bool quick);
+/// `go_on`, asked after each of `motion_point_count`: false to stop, and what was measured until then is returned.
+std::vector<MotionPoint> motion_points(bool quick, const std::function<bool()>& go_on);
+int motion_point_count(bool quick);
 
 /// A body in space, where it is and how it moves.
 Body moving(const Shape& shape, const Vector<3, double>& position, const Vector<3, double>& velocity, const Vector<3, double>& spin);
