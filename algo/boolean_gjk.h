@@ -20,6 +20,7 @@
 
 #include <limits>
 
+#include "algo/orientation.h"
 #include "algo/simplex.h"
 #include "algo/trace.h"
 
@@ -60,6 +61,8 @@ class BooleanGjk {
   }
 
  private:
+  static constexpr S leans = S(1e-3);  ///< what is left of long vectors, below which rounding turns it by more than a thousand of its units
+
   /// Part of the simplex, and the direction from it towards the origin. Indices into points_: 0 is A, the newest.
   struct Region {
     int count = 0;
@@ -105,18 +108,18 @@ class BooleanGjk {
     return false;
   }
 
-  /// The part of AO perpendicular to the edge: AB x AO x AB = AO (AB.AB) - AB (AB.AO).
-  V towards_origin(int a, int b) const {
-    const V ab = w(b) - w(a), ao = -w(a);
-    return ao * ab.dot(ab) - ab * ab.dot(ao);
-  }
+  /// The part of x perpendicular to the edge: AB x X x AB = X (AB.AB) - AB (AB.X).
+  static V across(const V& ab, const V& x) { return x * ab.dot(ab) - ab * ab.dot(x); }
 
+  /// Towards the origin, across the edge. Next to the line that is the difference of two long vectors, rounded: nothing at all where the origin lies on
+  /// it, and beside it a direction that leans along AB, by which A itself may seem to pass the origin. So once more across.
   Region line(int a, int b) const {
-    Region region{2, {a, b, 0}, towards_origin(a, b)};
     const V ab = w(b) - w(a);
-    // Rounding alone makes a "perpendicular" out of nothing when the origin lies on the line: call that nothing.
-    const S noise = 8 * std::numeric_limits<S>::epsilon() * ab.dot(ab) * w(a).norm();
-    if (region.direction.norm() <= noise) region.direction.setZero();
+    Region region{2, {a, b, 0}, across(ab, -w(a))};
+    V& d = region.direction;
+    const S long_ones = ab.dot(ab) * w(a).norm(), left = d.norm();
+    if (left <= 8 * std::numeric_limits<S>::epsilon() * long_ones) d.setZero();
+    else if (left <= leans * long_ones) d = across(ab, d);
     return region;
   }
 
@@ -125,8 +128,16 @@ class BooleanGjk {
   /// Region A or AB, when the origin is known to be beyond edge AB.
   Region beyond_edge(int a, int b) const { return (w(b) - w(a)).dot(-w(a)) > 0 ? line(a, b) : corner(a); }
 
+  /// AB x AC; of a thin triangle in twice the precision, for the same reason.
+  V normal_of(int a, int b, int c) const requires(D == 3) {
+    const V ab = w(b) - w(a), ac = w(c) - w(a), n = ab.cross(ac);
+    if (n.dot(n) > leans * leans * ab.dot(ab) * ac.dot(ac)) return n;
+    using W = WideVector<S>;
+    return W::difference(w(b), w(a)).cross(W::difference(w(c), w(a))).template rounded<3>();
+  }
+
   Region triangle(int a, int b, int c) const requires(D == 3) {
-    const V ab = w(b) - w(a), ac = w(c) - w(a), ao = -w(a), n = ab.cross(ac);
+    const V ab = w(b) - w(a), ac = w(c) - w(a), ao = -w(a), n = normal_of(a, b, c);
     if (n.cross(ac).dot(ao) > 0) return ac.dot(ao) > 0 ? line(a, c) : beyond_edge(a, b);
     if (ab.cross(n).dot(ao) > 0) return beyond_edge(a, b);
     const S height = n.dot(ao);
@@ -157,7 +168,7 @@ class BooleanGjk {
     static constexpr int faces[3][3] = {{1, 2, 3}, {2, 3, 1}, {3, 1, 2}};  // A b c, opposite
     S nearest = std::numeric_limits<S>::infinity();
     for (const auto& f : faces) {
-      const V n = (w(f[0]) - w(0)).cross(w(f[1]) - w(0));
+      const V n = normal_of(0, f[0], f[1]);
       const S inner = n.dot(w(f[2]) - w(0)), origin = n.dot(-w(0));
       if (inner > 0 ? origin >= 0 : inner < 0 ? origin <= 0 : false) continue;
       const Region candidate = triangle(0, f[0], f[1]);

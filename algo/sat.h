@@ -16,6 +16,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "algo/simplex.h"
 #include "algo/trace.h"
@@ -37,16 +38,40 @@ struct SatWitnesses {
   Vector<D, S> a, b;
 };
 
+/// An edge of a core, with the normals of the faces beside it: zero where it has none.
+template <int D, class S>
+struct SatEdge {
+  Vector<D, S> direction, left, right;
+  bool solid() const { return !left.isZero(0); }
+};
+
+/// The features of both cores in body 0's axes; those of body 1 as the difference has them, turned over. Used again by the next query, which then allocates nothing.
+template <int D, class S>
+struct SatWorkspace {
+  std::vector<Vector<D, S>> faces_a, faces_b;
+  std::vector<SatEdge<D, S>> edges_a, edges_b;
+};
+
+/// One a thread.
+template <int D, class S>
+SatWorkspace<D, S>& sat_workspace() {
+  thread_local SatWorkspace<D, S> workspace;
+  return workspace;
+}
+
 template <class Difference, class Trace>
 class Sat {
   static constexpr int D = Difference::D;
   using S = typename Difference::S;
   using V = Vector<D, S>;
+  using Edge3 = SatEdge<D, S>;
 
  public:
   /// Features in each body's axes; `rotation` takes body 1's to body 0's.
-  Sat(Difference& difference, const Features& a, const Features& b, const Matrix<D, S>& rotation, Trace& trace)
-      : difference_(difference), trace_(trace), floor_(difference.rounding_floor()), nearly_flat_(a.nearly_flat || b.nearly_flat) {
+  Sat(Difference& difference, const Features& a, const Features& b, const Matrix<D, S>& rotation, SatWorkspace<D, S>& workspace, Trace& trace)
+      : difference_(difference), trace_(trace), floor_(difference.rounding_floor()), nearly_flat_(a.nearly_flat || b.nearly_flat), faces_a_(workspace.faces_a),
+        faces_b_(workspace.faces_b), edges_a_(workspace.edges_a), edges_b_(workspace.edges_b) {
+    faces_a_.clear(), faces_b_.clear(), edges_a_.clear(), edges_b_.clear();
     for (const AnyVector& n : a.face_normals) faces_a_.push_back(local(n));
     for (const AnyVector& n : b.face_normals) faces_b_.push_back(-(rotation * local(n)));
     if constexpr (D == 3) {
@@ -84,11 +109,6 @@ class Sat {
   }
 
  private:
-  struct Edge3 {
-    V direction, left, right;
-    bool solid() const { return !left.isZero(0); }
-  };
-
   static V local(const AnyVector& v) {
     if (v.size() == 0) return V::Zero();
     const Vector<D, double> fixed = v;
@@ -168,8 +188,8 @@ class Sat {
   const S floor_;
   const bool nearly_flat_;
   S enough_ = 0;
-  std::vector<V> faces_a_, faces_b_;
-  std::vector<Edge3> edges_a_, edges_b_;
+  std::vector<V> &faces_a_, &faces_b_;
+  std::vector<Edge3> &edges_a_, &edges_b_;
   SatResult<D, S> result_;
 };
 

@@ -236,7 +236,7 @@ class PairSolver {
       const PolygonOf<S> a(difference_.a()), b(difference_.b());
       if (a.polygon && b.polygon) return solids_decide(PolygonSat<Difference, Trace>(difference_, *a.polygon, *b.polygon, trace_), query);
     }
-    Sat<Difference, Trace> sat(difference_, features_a_->get(), features_b_->get(), difference_.rotation(), trace_);
+    Sat<Difference, Trace> sat(difference_, features_a_->get(), features_b_->get(), difference_.rotation(), sat_workspace<D, S>(), trace_);
     if (!sat.spans()) {
       if constexpr (traced<Trace>)
         trace_(Warning<V, Viewed>{"flat-difference", "The difference of the bodies has no volume, or a body next to none: faces and edges alone do not decide. GJK does."});

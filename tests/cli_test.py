@@ -411,7 +411,16 @@ class Program(unittest.TestCase):
         self.assertEqual({p["method"] for f in chart["families"] for p in f["points"]}, {"signed volumes", "MPR", "MPR, float"})
         self.assertTrue((folder / "chart.png").exists() and not (folder / "ladder.png").exists())
         self.refused(run("chart", "--families", "bananas", "-o", folder), "bananas")
-        self.refused(run("chart", "--methods", "bananas", "-o", folder), "bananas")
+        for methods in "bananas", "default,bananas", "":
+            self.refused(run("chart", "--methods", methods, "-o", folder), "bananas" if methods else "no method has this name")
+        self.refused(run("chart", "--quick", "-o", "/proc"), "/proc")
+        # A name with a comma in it; families that no chosen method answers.
+        self.assertEqual(run("chart", "--quick", "--families", "boxes-apart", "--methods", "SAT, float,rule of Bullet", "-o", folder).returncode, 0)
+        chart = json.loads((folder / "chart.json").read_text())
+        self.assertEqual({p["method"] for p in chart["families"][0]["points"]}, {"SAT, float", "rule of Bullet"})
+        nothing = run("chart", "--quick", "--families", "hulls-apart", "--methods", "closed form", "-o", self.path / "nothing")
+        self.assertEqual((nothing.returncode, nothing.stderr), (0, "gjkdbg: nothing to chart: none of these methods answers in these families\n"))
+        self.assertEqual({p.name for p in (self.path / "nothing").iterdir()}, {"chart.csv", "chart.json"})
 
     def test_atlas_and_its_gate(self):
         folder = self.path / "atlas"
@@ -424,9 +433,9 @@ class Program(unittest.TestCase):
             for cell in family["cells"]:
                 good = ["right", "right-within-rounding"]
                 moving = family["name"] in ("T1", "T2")
-                if cell["method"] in ("SAT", "closed form", "projections", "root finding", "ray cast") or moving and cell["method"] in ("accelerated", "Polyak", "Newton"):
+                if cell["method"] in ("SAT", "closed form", "projections", "root finding", "ray cast") or moving and cell["method"] in ("yes or no", "fastest") or moving and cell["method"] in ("accelerated", "Polyak", "Newton"):
                     good.append("not-applicable")  # round shapes; all but balls and segments; hulls; what does not move; other directions
-                if cell["method"] in ("signed volumes", "Johnson", "Voronoi regions", "accelerated", "Polyak", "Newton", "SAT", "closed form", "projections", "root finding", "ray cast"):
+                if cell["method"] in ("signed volumes", "Johnson", "Voronoi regions", "accelerated", "Polyak", "Newton", "SAT", "closed form", "projections", "fastest", "yes or no", "root finding", "ray cast"):
                     self.assertIn(cell["verdict"], good, (family["name"], cell["method"]))
                 if cell["verdict"] not in (*good, "not-applicable"):
                     self.assertIn(cell["method"], cell["why"])
@@ -452,6 +461,13 @@ class Program(unittest.TestCase):
         self.assertEqual(result.returncode, 1)
         self.assertIn("worse than kept", result.stdout)
         self.refused(run("atlas", "--quick", "-o", folder, "--gate", self.scene), "/format")
+        for change, place in ({"version": 99}, "/version"), ({"families": 5}, "/families"), ({"families": []}, "/families"), ({"families": [{"name": "K1", "cells": "x"}]}, "/families/0/cells"), ({"families": [7]}, "/families/0"):
+            self.refused(run("atlas", "--quick", "-o", folder, "--gate", self.write("odd.json", {**better, **change})), place)
+        # What was answered and is no longer, and what was kept and is not there.
+        better["families"].append({"name": "Z9", "cells": [{"method": "Johnson", "verdict": "right"}]})
+        result = run("atlas", "--quick", "--method", "johnson", "-o", folder, "--gate", self.write("more.json", better))
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("kept, but not measured: Z9, Johnson: right", result.stdout)
 
     def test_meshes_are_relative_to_the_scene_and_stand_in_the_recording(self):
         self.write("tetra.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")

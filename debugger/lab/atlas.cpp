@@ -56,8 +56,15 @@ Verdict judge(const Answered& r, double exact, double size, double unit, double 
   return admitted ? Verdict::wrong_value : Verdict::lied;
 }
 
+/// What a method can be asked of a pair: all, or yes or no.
+Scene asked(const Variant& variant, Scene scene) {
+  if (variant.method.name == MethodName::gjk_boolean && scene.query != Query::cast) scene.query = Query::intersect;
+  return scene;
+}
+
 Answered ask_ours(const Scene& scene, const Settings& settings) {
   const Result r = solve(scene, settings);
+  if (!r.signed_distance) return {r.intersecting, false, 0, 0, 0, false, false};
   return {r.intersecting, true, *r.signed_distance, *r.lower_bound, *r.upper_bound, true, r.status == "iteration_limit" || r.status == "stalled"};
 }
 
@@ -112,9 +119,10 @@ Judged judge_case(const Variant& variant, const Scene& scene, double exact) {
     out.verdict = judge(answered, exact, scene_size(scene), unit, 1e-6, out.error);  // libraries stop at 1e-6 or so, not at rounding
     return out.value = answered.value, out;
   }
-  if (!applies(variant, scene)) return out;
-  const Settings settings = resolve_settings(variant.method, scene);
-  const Answered answered = ask_ours(scene, settings);
+  const Scene question = asked(variant, scene);
+  if (!applies(variant, question)) return out;
+  const Settings settings = resolve_settings(variant.method, question);
+  const Answered answered = ask_ours(question, settings);
   const double unit = settings.scalar == Scalar::float_precision ? 1.2e-7 : 2.3e-16;
   out.verdict = judge(answered, exact, scene_size(scene), unit, settings.tolerance, out.error);
   return out.value = answered.value, out;
@@ -130,6 +138,7 @@ std::string cause(const Variant& variant, Verdict verdict) {
     return "its stopping rules are absolute lengths, and its simplex is judged in plain arithmetic";
   }
   if (variant.method.name == MethodName::mpr && verdict != Verdict::wrong_class) return "MPR leaves through the portal that the line between the centres meets: an upper bound of the depth, and it says so";
+  if (variant.method.stopping) return "its rule looks at a step, not at the bounds, and stops while they are apart";
   if (variant.method.scalar == Scalar::float_precision) return "single precision carries 7 digits of the bodies' sizes, and the answer lies below them";
   return verdict == Verdict::gave_up ? "its steps no longer make progress, and it says so" : "rounding decides, and nothing notices";
 }
@@ -148,9 +157,12 @@ void simplify(const Variant& variant, AtlasCell& cell) {
   const Verdict verdict = cell.verdict;
   const double was = cell.exact;
   const auto alike = [&](double exact) { return was == 0 ? exact == 0 : exact / was >= 0.5 && exact / was <= 2; };
-  const auto still = [&](const Scene& candidate) { return alike(reference(candidate).signed_distance) && judge_case(variant, candidate, reference(candidate).signed_distance).verdict == verdict; };
+  const auto still = [&](const Scene& candidate) {
+    const double exact = reference(candidate).signed_distance;
+    return alike(exact) && judge_case(variant, candidate, exact).verdict == verdict;
+  };
   const bool slow = verdict == Verdict::crashed;  // each time until the end of its patience
-  cell.scene = shrunk(cell.scene, still, slow ? 4 : 400);
+  cell.scene = shrunk(cell.scene, still, slow ? 4 : 200);
   if (slow) return;
   const double exact = reference(cell.scene).signed_distance;
   if (const Judged judged = judge_case(variant, cell.scene, exact); judged.verdict == verdict) cell.value = judged.value, cell.exact = exact;
@@ -210,7 +222,7 @@ std::string atlas_json(const Atlas& atlas) {
       if (failed(cell.verdict)) {
         entry["why"] = cell.why;
         SceneFile worst;
-        worst.scene = cell.scene;
+        worst.scene = asked(atlas.methods[m], cell.scene);
         worst.scene.name = atlas.families[f].name + ", " + atlas.methods[m].name;
         worst.method = atlas.methods[m].method;  // of another library: the default, to compare with
         entry["scene"] = scene_to_json(worst);

@@ -36,7 +36,7 @@ std::string in_double(const std::string& method) { return method.substr(0, metho
 Style style_of(const std::string& method) {
   static constexpr std::pair<const char*, const char*> colours[] = {
       {"signed volumes", "#0072B2"}, {"Johnson", "#D55E00"}, {"Voronoi regions", "#009E73"}, {"accelerated", "#CC79A7"}, {"Polyak", "#E69F00"},     {"Newton", "#882255"},
-      {"MPR", "#56B4E9"},            {"SAT", "#B8A800"},     {"closed form", "#7B3294"},     {"projections", "#B2182B"}, {"Bullet", "#222222"},     {"FCL", "#555555"},
+      {"MPR", "#56B4E9"},            {"SAT", "#B8A800"},     {"closed form", "#7B3294"},     {"projections", "#B2182B"}, {"fastest", "#6BBF00"}, {"rule of", "#8A6D3B"}, {"Bullet", "#222222"},     {"FCL", "#555555"},
       {"libccd GJK", "#777777"},     {"libccd MPR", "#999999"}, {"ODE", "#BBBBBB"},          {"Box2D", "#8C8450"},       {"plain", "#0072B2"},      {"Nesterov", "#CC79A7"},
       {"conservative-advancement", "#0072B2"}, {"root-finding", "#009E73"}, {"ray-cast", "#D55E00"}, {"explicit-euler", "#999999"}, {"semi-implicit-euler", "#E69F00"}, {"rk4", "#882255"}};
   const char* colour = "#000000";

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <initializer_list>
+#include <utility>
 
 #include "algo/solve.h"
 #include "shapes/convex.h"
@@ -10,7 +12,7 @@
 
 namespace gjkdbg {
 
-std::vector<Variant> variants(bool casts) {
+std::vector<Variant> variants(bool in_atlas) {
   std::vector<Variant> out;
   for (const Scalar scalar : {Scalar::double_precision, Scalar::float_precision}) {
     const std::string suffix = scalar == Scalar::double_precision ? "" : ", float";
@@ -30,7 +32,11 @@ std::vector<Variant> variants(bool casts) {
     add("SAT", MethodName::sat);
     add("closed form", MethodName::closed_form);
     add("projections", MethodName::projections);
-    if (casts) add("root finding", MethodName::root_finding), add("ray cast", MethodName::ray_cast);
+    add("fastest", MethodName::fastest).closest_point.reset();  // all but the scalar is its choice
+    if (in_atlas) add("yes or no", MethodName::gjk_boolean), add("root finding", MethodName::root_finding), add("ray cast", MethodName::ray_cast);
+    if (scalar == Scalar::double_precision)
+      for (const auto& [whose, rule] : std::initializer_list<std::pair<const char*, Stopping>>{{"van den Bergen", Stopping::van_den_bergen}, {"Bullet", Stopping::bullet}, {"Jolt", Stopping::jolt}, {"openGJK", Stopping::opengjk}})
+        add(std::string("rule of ") + whose, MethodName::gjk).stopping = rule;
   }
   for (const Peer& peer : peers()) out.push_back({peer.name, {}, &peer});
   return out;

@@ -16,9 +16,9 @@ struct Variant {
   Method method;               ///< of ours
   const Peer* peer = nullptr;  ///< of another library
 };
-/// Every method for signed distances there is, in both scalars, and every library this was built with; `casts`: and the methods that only casts
-/// have. (Of a cast GJK's are conservative advancement, with GJK inside.)
-std::vector<Variant> variants(bool casts = false);
+/// Every method for signed distances there is, in both scalars, GJK by others' stopping rules in double, and every library this was built with; `in_atlas`:
+/// and the one that says yes or no only, and those of casts. (Of a cast GJK's are conservative advancement, with GJK inside.)
+std::vector<Variant> variants(bool in_atlas = false);
 /// Those whose names begin with one of `names`, whatever the case ("default": the first alone); all when there are none. Each may be several, with commas between.
 /// Throws Error for a name that none has.
 std::vector<Variant> chosen(const std::vector<Variant>& all, const std::vector<std::string>& names);

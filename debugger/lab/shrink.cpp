@@ -68,8 +68,9 @@ class Shrinking {
         s.bodies[b].pose = identity_pose(s.dimension), s.bodies[b].pose.position = position;
       });
     for (std::size_t b = 0; b < scene_.bodies.size(); ++b) drop_points(b);
+    const std::size_t numbers = numbers_of(scene_).size();
     for (int digits = 1; digits <= 8; ++digits)
-      for (std::size_t k = 0; k < numbers_of(scene_).size(); ++k)
+      for (std::size_t k = 0; k < numbers && left_ > 0; ++k)
         attempt([&](Scene& s) {
           const std::vector<double*> group = numbers_of(s)[k];
           const double x = rounded(*group.front(), digits);
@@ -106,14 +107,16 @@ class Shrinking {
     return true;
   }
 
+  /// Half of them at once, then a quarter, … and each alone.
   void drop_points(std::size_t b) {
     const auto points_of = [b](Scene& s) { return std::get_if<PointSet>(&s.bodies[b].shape.geometry); };
-    const PointSet* set = points_of(scene_);
-    for (std::size_t i = set ? set->points.size() : 0; i-- > 1;)
-      attempt([&](Scene& s) {
-        auto& points = points_of(s)->points;
-        if (i < points.size()) points.erase(points.begin() + static_cast<std::ptrdiff_t>(i));
-      });
+    const PointSet* const set = points_of(scene_);
+    for (std::size_t some = set ? set->points.size() / 2 : 0; some > 0; some /= 2)
+      for (std::size_t end = points_of(scene_)->points.size(); end > some && left_ > 0; end -= some)
+        attempt([&](Scene& s) {
+          auto& points = points_of(s)->points;
+          if (end <= points.size()) points.erase(points.begin() + static_cast<std::ptrdiff_t>(end - some), points.begin() + static_cast<std::ptrdiff_t>(end));
+        });
   }
 
   Scene scene_;

@@ -1,6 +1,7 @@
 // No more than is asked: counters of what a query runs, and that a prepared query allocates nothing.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <cstdlib>
 #include <new>
@@ -8,6 +9,7 @@
 #include "algo/prepared_pair.h"
 #include "recordings/gallery.h"
 #include "recordings/recording.h"
+#include "shapes/error.h"
 #include "tests/support/random_scenes.h"
 
 namespace {
@@ -90,7 +92,7 @@ TEST(Need, RoundCoresNeedNoPolytope) {
 
 /// Shapes prepared once, the workspace kept: the query itself.
 long allocations_of(const Scene& scene, const Settings& settings, Query query) {
-  const auto pair = prepare(scene.bodies[0], scene.bodies[1], scene.dimension, Scalar::double_precision);
+  const auto pair = prepare(scene.bodies[0], scene.bodies[1], scene.dimension, settings.scalar);
   const auto run = [&] { return pair->run(settings, query); };
   for (int i = 0; i < 3; ++i) (void)run();  // the workspace grows to what this pair needs
   const long before = allocations;
@@ -115,6 +117,33 @@ TEST(Need, APreparedQueryAllocatesNothing) {
       if (testing::Test::HasFailure()) return;
     }
   }
+}
+
+/// By every method that takes the bodies, of every kind of scene, in both scalars.
+TEST(Need, NoMethodAllocates) {
+#ifdef GJKDBG_SANITIZED
+  GTEST_SKIP() << "the sanitizer counts for itself";
+#endif
+  RandomScenes random(33);
+  std::array<int, method_names.size()> counted{};
+  for (int k = 0; k < 240; ++k) {
+    Scene scene = random.scene(1 + k % 3, static_cast<Family>(k / 3 % family_count), k % 2 == 0);
+    for (std::size_t m = 0; m < method_names.size(); ++m)
+      for (const Scalar scalar : {Scalar::double_precision, Scalar::float_precision}) {
+        Method method;
+        method.name = static_cast<MethodName>(m), method.scalar = scalar;
+        scene.query = method.name == MethodName::gjk_boolean ? Query::intersect : Query::penetration;
+        Settings settings;
+        try {
+          settings = resolve_settings(method, scene);
+        } catch (const Error&) {
+          continue;  // no method for these bodies
+        }
+        ++counted[m];
+        ASSERT_EQ(allocations_of(scene, settings, scene.query), 0) << "scene " << k << " by " << word_of(*method.name) << " in " << word_of(scalar);
+      }
+  }
+  for (const MethodName name : {MethodName::gjk, MethodName::gjk_boolean, MethodName::mpr, MethodName::sat, MethodName::projections}) EXPECT_GT(counted[static_cast<std::size_t>(name)], 40) << word_of(name);
 }
 
 TEST(Need, TheFastestMethodGoesByTheBodies) {

@@ -66,6 +66,7 @@ void check_booleans(const Scene& scene, const oracle::Answer& exact) {
   if (std::abs(exact.signed_distance) <= 1e-12 * size_of(scene)) return;
   for (const Query query : {Query::intersect, Query::distance, Query::penetration, Query::contact})
     EXPECT_EQ(answer(scene, query).intersecting, exact.intersecting) << word_of(query) << " " << exact.signed_distance;
+  EXPECT_EQ(answer(scene, Query::intersect, MethodName::gjk_boolean).intersecting, exact.intersecting) << "boolean " << exact.signed_distance;
   const Result distance = answer(scene, Query::distance);
   EXPECT_NEAR(*distance.signed_distance, std::max(0.0, exact.signed_distance), 1e-10 * std::max(size_of(scene), exact.signed_distance));
 }
