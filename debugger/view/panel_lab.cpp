@@ -16,12 +16,13 @@ Colour verdict_colour(int verdict, const Palette& p) {
 
 Colour text_on(int verdict) { return rgb(verdict >= 1 && verdict <= 4 ? 0x141414 : 0xffffff); }
 
-/// The verdict's mark and the size of the error; in a narrow cell smaller.
+/// The verdict's mark and the size of the error; in a narrow cell smaller, in a narrower one the mark.
 void cell_text(const Theme& theme, const MeasuredCell& cell, ImVec2 low, ImVec2 high) {
-  const std::string number = cell.verdict >= 7 || cell.worst_error == 0 ? "" : formatted(cell.worst_error, "%.0e"), text = atlas_verdict_marks[static_cast<std::size_t>(cell.verdict)] + number;
-  const float room = high.x - low.x - theme.px(2), width = small_width(theme, text), size = theme.small->FontSize * std::clamp(room / std::max(width, 1.f), 0.7f, 1.f);
+  const std::string mark = atlas_verdict_marks[static_cast<std::size_t>(cell.verdict)], number = cell.verdict >= 7 || cell.worst_error == 0 ? "" : formatted(cell.worst_error, "%.0e");
+  const float room = high.x - low.x - theme.px(2), smallest = 0.7f;
+  const std::string text = smallest * small_width(theme, mark + number) > room + theme.px(2) ? mark : mark + number;
+  const float width = small_width(theme, text), size = theme.small->FontSize * std::clamp(room / std::max(width, 1.f), smallest, 1.f);
   const float drawn = width * size / theme.small->FontSize;
-  if (drawn > room + theme.px(2)) return;
   ImGui::GetWindowDrawList()->AddText(theme.small, size, {(low.x + high.x - drawn) / 2, (low.y + high.y - size) / 2}, packed(text_on(cell.verdict)), text.c_str());
 }
 
