@@ -208,13 +208,13 @@ struct SimulationCheck {
       }
     for (const auto& [pair, found] : deepest) {
       const auto& [step, contact] = found;
-      const auto support = [&](int k) {
+      const auto placed = [&](int k) {
         const auto i = static_cast<std::size_t>(k);
         Body body = scene.bodies[i];
         body.pose.position = before.bodies[i].position, body.pose.matrix = moving(before, i).rotation.topLeftCorner(scene.dimension, scene.dimension);
         return body;
       };
-      const Body first = support(pair[0]), second = support(pair[1]);
+      const Body first = placed(pair[0]), second = placed(pair[1]);
       if (std::holds_alternative<Mesh>(first.shape.geometry) || std::holds_alternative<Mesh>(second.shape.geometry)) continue;
       const WorldSupport a(first, scene.dimension), b(second, scene.dimension);
       const AnyVector& n = contact->normal;
