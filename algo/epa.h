@@ -5,7 +5,7 @@
 //   f = nearest face                       its distance is a lower bound of the depth
 //   w = support(normal of f)               normal . w is an upper bound: moving that far along the normal separates
 //   stop when the bounds meet; else add w (algo/polytope.h)
-// Deviations: the start may be a simplex of any rank (seed, below); faces are ordered by *signed* distance, so that a
+// Deviations: the start may be a simplex of any rank, or more than one (algo/epa_start.h); faces are ordered by *signed* distance, so that a
 // start which misses the origin by rounding grows until it holds it; the answer is the direction with the least upper
 // bound met, with the face it came from; where precision ends, it is the last good one and the gap is reported.
 #pragma once
@@ -14,6 +14,7 @@
 #include <numeric>
 
 #include "algo/epa_result.h"
+#include "algo/epa_start.h"
 #include "algo/signed_volumes.h"
 
 namespace gjkdbg {
@@ -33,7 +34,8 @@ class Epa {
 
   EpaResult<D, S> run(const Simplex<D, S>& simplex) {
     polytope_.clear();
-    if (!seed(simplex)) return finish_flat(simplex);
+    EpaStart<Difference, Trace> start(difference_, polytope_, trace_);
+    if (!start.run(simplex)) return finish_flat(simplex, start.flat());
     if (!enclose_origin()) return finish(EpaStatus::separated);
     trace_seeded();
     return finish(expand());
@@ -88,139 +90,10 @@ class Epa {
     result_.face ^= (result_.face ^ number) & -static_cast<int>(better);
   }
 
-  Point query(const V& d, Phase phase) {
-    const Point point = difference_.support(d);
-    if constexpr (traced<Trace>)
-      trace_(SupportQueried<V, Viewed>{result_.iterations, phase, d, point.vertex, point.a, point.b, point.w});
-    return point;
-  }
-
-  // --- The start: D + 1 points that span the space -------------------------------------------------------------
-  // GJK ends with the origin in a simplex of rank 0 to D. Its vertices are taken as far as they add a dimension; what is
-  // missing is asked for across what is there, both ways, and the farther point taken. When neither leaves it, A - B is
-  // flat there: depth 0.
-
-  bool seed(const Simplex<D, S>& simplex) {
-    std::array<int, D + 1> chosen{};
-    if (plainly_spans(simplex)) {
-      for (int i = 0; i <= D; ++i) chosen[i] = polytope_.add_point(simplex[i]);
-      polytope_.start(chosen);
-      return true;
-    }
-    chosen[0] = polytope_.add_point(simplex[0]);
-    for (int rank = 0; rank < D; ++rank) {
-      const int point = next_point(simplex, chosen, rank);
-      if (point < 0) return false;
-      chosen[rank + 1] = point;
-    }
-    polytope_.start(chosen);
-    return true;
-  }
-
-  /// A tetrahedron that plain arithmetic shows not to be flat: no edge short, no corner sharp, the last point well off the others' plane.
-  bool plainly_spans(const Simplex<D, S>& simplex) const {
-    if constexpr (D == 3) {
-      if (simplex.size != 4) return false;
-      const V x = simplex[1].w - simplex[0].w, y = simplex[2].w - simplex[0].w, z = simplex[3].w - simplex[0].w;
-      const V n = x.cross(y);
-      const S xx = x.dot(x), yy = y.dot(y), nn = n.dot(n), off = n.dot(z), far = 64 * floor_;
-      return std::min(xx, yy) > far * far && nn > S(1e-6) * xx * yy && off * off > far * far * nn;
-    }
-    return false;
-  }
-
-  /// A point farthest off the hull of the first `rank` + 1 chosen ones: of the simplex, else of new supports.
-  int next_point(const Simplex<D, S>& simplex, const std::array<int, D + 1>& chosen, int rank) {
-    S best = 64 * floor_;
-    int from = -1;
-    for (int i = 1; i < simplex.size; ++i)
-      if (const S off = off_hull(simplex[i].w, chosen, rank); off > best) best = off, from = i;
-    if (from >= 0) return polytope_.add_point(simplex[from]);
-    best = floor_, best_height_ = std::numeric_limits<S>::infinity();
-    Point farthest;
-    flat_normal_ = across(chosen, rank);
-    for (const V& axis : directions_across(chosen, rank)) {
-      for (const V& d : {V(axis), V(-axis)}) {
-        const Point point = query(d, Phase::seed);
-        if (const S off = off_hull(point.w, chosen, rank); off > best) best = off, farthest = point;
-        note_flat(d, point.w);
-      }
-    }
-    return farthest.vertex < 0 ? -1 : polytope_.add_point(farthest);
-  }
-
+  Point query(const V& d, Phase phase) { return queried_support(difference_, trace_, result_.iterations, phase, d); }
   const V& at(int i) const { return polytope_.points()[i].w; }
 
-  /// Distance of w from the point, line or plane through the chosen points.
-  S off_hull(const V& w, const std::array<int, D + 1>& chosen, int rank) const {
-    const V x = w - at(chosen[0]);
-    if (rank == 0) return x.norm();
-    const V e = (at(chosen[1]) - at(chosen[0])).normalized();
-    if (rank == 1) return (x - e * e.dot(x)).norm();
-    if constexpr (D == 3) return std::abs(x.dot(plane_normal(chosen)));
-    return 0;
-  }
-
-  V plane_normal(const std::array<int, D + 1>& chosen) const {
-    if constexpr (D == 3) {
-      using W = WideVector<S>;
-      const W n = W::difference(at(chosen[1]), at(chosen[0])).cross(W::difference(at(chosen[2]), at(chosen[0])));
-      return n.template rounded<3>().stableNormalized();
-    }
-    return V::Zero();
-  }
-
-  /// A unit direction across the chosen points; where these are a line that passes beside the origin, the way from the one to the other.
-  V across(const std::array<int, D + 1>& chosen, int rank) const {
-    if constexpr (D == 3) {
-      if (rank == 2) return plane_normal(chosen);
-      if (rank == 1) {
-        using W = WideVector<S>;
-        const W e = W::difference(at(chosen[1]), at(chosen[0]));
-        const V off = e.cross(W(at(chosen[0])).cross(e)).template rounded<3>();  // |e|^2 times the way from the origin to the line
-        const S length = off.norm();
-        if (length > floor_ * e.template rounded<3>().squaredNorm()) return off / length;
-      }
-    }
-    if (rank == 0) return V::Unit(0);
-    const V e = (at(chosen[1]) - at(chosen[0])).normalized();
-    if constexpr (D == 2) return V(e[1], -e[0]);
-    int least = 0;
-    e.cwiseAbs().minCoeff(&least);
-    V n = V::Unit(least) - e * e[least];
-    return n.normalized();
-  }
-
-  /// At most D directions.
-  struct Directions {
-    std::array<V, D> list;
-    int count = 0;
-    const V* begin() const { return list.data(); }
-    const V* end() const { return list.data() + count; }
-  };
-
-  /// Directions that span what is missing.
-  Directions directions_across(const std::array<int, D + 1>& chosen, int rank) const {
-    Directions across_chosen;
-    const auto add = [&](const V& d) { across_chosen.list[across_chosen.count++] = d; };
-    if (rank == 0) {
-      for (int i = 0; i < D; ++i) add(V::Unit(i));
-      return across_chosen;
-    }
-    const V n = across(chosen, rank);
-    add(n);
-    if constexpr (D == 3)
-      if (rank == 1) add((at(chosen[1]) - at(chosen[0])).normalized().cross(n));
-    return across_chosen;
-  }
-
-  /// Should A - B turn out flat, the way out is across it, to the side where its support is least.
-  void note_flat(const V& d, const V& w) {
-    const S side = d.dot(flat_normal_);
-    if (std::abs(side) < S(0.5)) return;
-    const S height = d.dot(w);
-    if (best_height_ > height) best_height_ = height, result_.normal = d;
-  }
+  // --- The start encloses the origin ----------------------------------------------------------------------------
 
   /// Grows the start until no face has the origin outside. False when a support plane proves that it lies outside A - B.
   bool enclose_origin() {
@@ -244,7 +117,8 @@ class Epa {
 
   /// A - B lies in a plane (or what spans less). Its support across that, to the nearer side, is the plane's distance from the origin, negative: more
   /// than rounding, and the bodies are apart by as much, however little GJK could tell. No farther than its simplex.
-  EpaResult<D, S> finish_flat(const Simplex<D, S>& simplex) {
+  EpaResult<D, S> finish_flat(const Simplex<D, S>& simplex, const FlatDifference<V>& flat) {
+    best_height_ = flat.height, result_.normal = flat.normal;
     if (best_height_ < -floor_) {
       lower_ = std::min(best_height_, -(simplex.point_a() - simplex.point_b()).norm());
       return finish(EpaStatus::separated);
@@ -272,13 +146,13 @@ class Epa {
   /// The origin's projection on the answering plane, as a combination of a face's vertices. Where that plane carries several
   /// faces, the projection lies in one of them only, not always in the one that was asked first.
   void set_points(std::array<int, D> vertices) {
-    auto weights = polytope_.weights(vertices, result_.normal, false);
+    auto weights = weights_in(vertices, false);
     S miss = projection_error(vertices, weights);
-    if (miss > floor_) weights = polytope_.weights(vertices, result_.normal, true), miss = projection_error(vertices, weights);
+    if (miss > floor_) weights = weights_in(vertices, true), miss = projection_error(vertices, weights);
     if (miss > floor_) {
       for (const Face& face : polytope_.faces()) {
         if (face.removed || face.distance > best_height_ + floor_ || face.normal.dot(result_.normal) < S(0.999)) continue;
-        const auto others = polytope_.weights(face.vertices, result_.normal, true);
+        const auto others = weights_in(face.vertices, true);
         if (const S error = projection_error(face.vertices, others); error < miss) miss = error, weights = others, vertices = face.vertices;
       }
     }
@@ -298,11 +172,15 @@ class Epa {
 
   /// How far from the origin a point of A - B lies: the plane of a face alone would be nearer, where the origin is beside the face.
   S reach_of_nearest_face() {
-    const Face& face = polytope_.faces()[polytope_.nearest()];
-    std::array<V, D> w;
-    for (int i = 0; i < D; ++i) w[i] = at(face.vertices[i]);
-    return std::sqrt(SignedVolumes<D, S>::closest(w.data(), D).v_squared);
+    return std::sqrt(SignedVolumes<D, S>::closest(corners(polytope_.faces()[polytope_.nearest()].vertices).data(), D).v_squared);
   }
+
+  std::array<V, D> corners(const std::array<int, D>& vertices) const {
+    std::array<V, D> w;
+    for (int i = 0; i < D; ++i) w[i] = at(vertices[i]);
+    return w;
+  }
+  std::array<S, D> weights_in(const std::array<int, D>& vertices, bool wide) const { return projection_weights<D, S>(corners(vertices), result_.normal, wide); }
 
   S projection_error(const std::array<int, D>& vertices, const std::array<S, D>& weights) const {
     V w = -result_.normal * best_height_;
@@ -372,7 +250,6 @@ class Epa {
   Point best_;     ///< of round bodies: the support of that height
   S reach_a_ = 0;  ///< of A along the direction of the best height: B's share is the rest
   S lower_ = 0;
-  V flat_normal_ = V::Zero();
 };
 
 /// Runs EPA from the simplex GJK ended with: the origin lies in its hull, to rounding. Frame of body 0.

@@ -13,6 +13,7 @@
 // world's origin costs no accuracy.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -79,8 +80,8 @@ S rounding_floor_of(S extents, S squared) {
   return roundings * std::numeric_limits<S>::epsilon() / 2 * (extents + std::sqrt(squared));
 }
 
-/// A and B are anything with support(direction), reference(), center(), extent(), radius() and polytope(), and for Newton's directions
-/// add_support_derivative(…): Convex among them. SAT and projections look for core(), too.
+/// A and B are anything with support(direction), reference(), center(), extent(), radius(), polytope() and vertices(), and for Newton's
+/// directions add_support_derivative(…): Convex among them. SAT and projections look for core(), too.
 template <int D_, class S_, class A, class B = A>
 class MinkowskiDifference {
  public:
@@ -142,6 +143,8 @@ class MinkowskiDifference {
   S radius_a() const { return static_cast<S>(a_.radius()); }
   S radius_b() const { return static_cast<S>(b_.radius()); }
   bool polytope() const { return a_.polytope() && b_.polytope(); }
+  /// Of the body with fewer: its own cells of directions are no smaller than those of A - B.
+  int vertices() const { return std::min(a_.vertices(), b_.vertices()); }
   /// B's reference point, seen from A's.
   const V& position() const { return pose_.position; }
   /// A good first direction: from A's reference point towards B's, whatever its length; where they are one, any.

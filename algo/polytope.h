@@ -23,28 +23,10 @@
 #include <vector>
 
 #include "algo/orientation.h"
-#include "algo/simplex.h"
+#include "algo/polytope_face.h"
 #include "shapes/fours.h"
 
 namespace gjkdbg {
-
-template <int D, class S>
-struct PolytopeFace {
-  std::array<int, D> vertices;     ///< indices into points(); counter-clockwise seen from outside
-  std::array<int, D> neighbours;   ///< 3D: across edge (vertices[i], vertices[i+1]), as 4 times the face and its edge; 2D: before, after; 1D: the side, -1 or 1
-  Vector<D, S> normal;             ///< unit, outwards; zero for a face without area
-  S distance;                      ///< of the plane from the origin, negative: the origin is outside; infinite for a face without area
-  std::uint32_t place;             ///< among those that Polytope::nearest looks at
-  bool removed = false;
-  PolytopeFace() {}                // leaves the numbers unset: they are written next
-};
-
-/// What one growth did. The new faces are one after the other around the hole: in 3D face i lies between the edge vertices[0], vertices[1] of the
-/// horizon and the new point, in 2D the first leads to it and the second from it. Valid until the next growth.
-struct Growth {
-  std::span<const int> removed;
-  int first_added = 0, added = 0;  ///< new faces: the first one's number, how many
-};
 
 template <int D, class S>
 class Polytope {
@@ -72,9 +54,16 @@ class Polytope {
   /// Starts from D + 1 points that span the space (any orientation).
   void start(std::array<int, D + 1> simplex);
 
+  /// 3D: starts from two points and four between them, counter-clockwise around the way from the second to the first. False, and the polytope is of no
+  /// use, unless they are plainly the corners of an octahedron that has the origin inside by more than `floor`.
+  bool start_octahedron(const std::array<int, 2>& poles, const std::array<int, 4>& ring, S floor);
+
   /// The face with the smallest signed distance. One look at all there are: they are few, and which of them is nearer is nothing a processor can
   /// guess, as it would have to in a heap. -1 when no face is left.
   int nearest();
+
+  /// A face that p lies outside of, by more than `margin`; -1 when there is none.
+  int face_below(int p, S margin) const;
 
   /// Grows by point p, which must lie outside `seen`. False, and no face has changed, when no hull with one horizon comes of it.
   bool grow(int p, int seen);
@@ -83,16 +72,14 @@ class Polytope {
   const std::vector<Point>& points() const { return points_; }
   std::span<const Face> faces() const { return {faces_.data(), count_}; }
 
-  /// Weights of the face's vertices with which they make its point nearest the origin (the projection; clamped to the face). `wide`: in
-  /// twice the precision, as thin faces need.
-  std::array<S, D> weights(const std::array<int, D>& vertices, const V& normal, bool wide) const;
-
  private:
   /// Sine of the angle between a face's shorter edges below which its normal is worth less than 1e-13 in double.
   static constexpr S thin = S(1e-3);
   static constexpr S gone = -std::numeric_limits<S>::infinity();  ///< as nearness: of no face
 
   const V& at(int i) const { return points_[i].w; }
+  /// Of a point above a face's plane: see `sees`.
+  S rounding_of_height() const { return 32 * std::numeric_limits<S>::epsilon() / thin * reach_; }
   void make_room();
   void add_face(const std::array<int, D>& vertices, const std::array<int, D>& neighbours);
   void remove(int number);
@@ -144,7 +131,7 @@ template <int D, class S>
 bool Polytope<D, S>::sees(int p, const Face& face) const {
   if constexpr (D == 3) {
     const S height = face.normal.dot(at(p)) - face.distance;
-    if (std::abs(height) > 32 * std::numeric_limits<S>::epsilon() / thin * reach_ && face.distance < std::numeric_limits<S>::infinity()) return height > 0;
+    if (std::abs(height) > rounding_of_height() && face.distance < std::numeric_limits<S>::infinity()) return height > 0;
   }
   if constexpr (D == 3) return orientation<S>(at(face.vertices[0]), at(face.vertices[1]), at(face.vertices[2]), at(p)) >= 0;
   if constexpr (D == 2) return orientation<S>(at(face.vertices[0]), at(face.vertices[1]), at(p)) <= 0;
@@ -286,6 +273,37 @@ void Polytope<D, S>::start(std::array<int, D + 1> s) {
   }
 }
 
+/// Face k lies between the first pole and the ring's corners k and k + 1, face 4 + k between those and the other pole; edge 0 of both is the one they
+/// share. A closed surface is that of a convex body if it turns outwards at each edge, that is if the corner across it is below the face, and goes
+/// around no corner twice, for which four edges are too few: eight half turns. The origin is inside if it is below each face.
+template <int D, class S>
+bool Polytope<D, S>::start_octahedron(const std::array<int, 2>& poles, const std::array<int, 4>& ring, S floor) {
+  make_room();
+  for (int side = 0; side < 2; ++side)
+    for (int k = 0; k < 4; ++k) {
+      const int next = (k + 1) % 4, before = (k + 3) % 4;
+      if (side == 0) add_face({ring[k], ring[next], poles[0]}, {4 * (4 + k), 4 * next + 2, 4 * before + 1});
+      else add_face({ring[next], ring[k], poles[1]}, {4 * k, 4 * (4 + before) + 2, 4 * (4 + next) + 1});
+    }
+  const S margin = std::max(floor, rounding_of_height());
+  bool convex = true;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Face &face = faces_[k], &other = faces_[4 + k];
+    const V& across = at(ring[(k + 2) % 4]);
+    const auto below = [&](const Face& f, const V& w) { return f.normal.dot(w) - f.distance < -margin; };
+    for (const Face* f : {&face, &other}) convex &= (f->distance > floor) & (f->distance < std::numeric_limits<S>::infinity()) & below(*f, across);
+    convex &= below(face, at(poles[1]));
+  }
+  return convex;
+}
+
+template <int D, class S>
+int Polytope<D, S>::face_below(int p, S margin) const {
+  for (std::size_t f = 0; f < count_; ++f)
+    if (!faces_[f].removed && faces_[f].normal.dot(at(p)) - faces_[f].distance > margin && sees(p, faces_[f])) return static_cast<int>(f);
+  return -1;
+}
+
 // --- Growth -----------------------------------------------------------------------------------------------------
 
 template <int D, class S>
@@ -363,30 +381,6 @@ void Polytope<D, S>::undo_growth() {
     if constexpr (D == 3)
       for (int edge = 0; edge < 3; ++edge) faces_[face.neighbours[edge] >> 2].neighbours[face.neighbours[edge] & 3] = 4 * number + edge;
   }
-}
-
-/// 3D: the weight of a vertex is the area of the opposite edge with the projected origin, along the normal: n . (w_j x w_k).
-template <int D, class S>
-std::array<S, D> Polytope<D, S>::weights(const std::array<int, D>& v, const V& normal, [[maybe_unused]] bool wide) const {
-  std::array<S, D> weight{};
-  weight[0] = 1;
-  if constexpr (D == 2) {
-    const V e = at(v[1]) - at(v[0]);
-    const S length = e.dot(e), t = length > 0 ? -at(v[0]).dot(e) / length : S(0);
-    weight[1] = std::clamp(t, S(0), S(1)), weight[0] = 1 - weight[1];
-  } else if constexpr (D == 3) {
-    const V &a = at(v[0]), &b = at(v[1]), &c = at(v[2]);
-    const auto area = [&](const V& p, const V& q) {
-      if (!wide) return std::max(S(0), normal.dot(p.cross(q - p)));
-      using W = WideVector<S>;
-      return std::max(S(0), static_cast<S>(double(W(normal).dot(W(p).cross(W::difference(q, p))))));
-    };
-    weight = {area(b, c), area(c, a), area(a, b)};
-    const S sum = weight[0] + weight[1] + weight[2];
-    if (!(sum > 0)) return {1, 0, 0};
-    for (S& x : weight) x /= sum;
-  }
-  return weight;
 }
 
 }  // namespace gjkdbg

@@ -37,6 +37,7 @@ void Convex<D, S>::set_vertices(std::vector<Vector<D, double>> points, double sc
     p = (p - reference_) * scale;
   }
   reference_ *= scale;
+  vertices_ = static_cast<int>(points.size());
   if constexpr (D == 2)
     if (polygon) {
       core_ = PolygonCore<S>(points);
@@ -61,16 +62,18 @@ void Convex<D, S>::set(const Geometry& g, double scale) {
     core.corners = {(high * scale).template cast<S>(), (low * scale).template cast<S>()};
     extent_ = low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm() * scale;
     reference_ *= scale;
+    vertices_ = 1 << D;
     core_ = core;
   } else if constexpr (std::is_same_v<Geometry, Capsule>) {
     core_ = SegmentCore<D, S>{g.axis, scaled(g.half_height)};
     extent_ = g.half_height * scale;
     radius_ = g.radius * scale;
+    vertices_ = 2;
   } else if constexpr (std::is_same_v<Geometry, Ellipsoid>) {
     const Vector<D, double> radii = g.radii;
     core_ = EllipsoidCore<D, S>{(radii * scale).template cast<S>()};
     extent_ = radii.maxCoeff() * scale;
-    polytope_ = false;
+    polytope_ = false, vertices_ = 0;
   } else if constexpr (std::is_same_v<Geometry, PointSet>) {
     const bool reduce = g.kind == PointSetKind::hull || g.kind == PointSetKind::polygon;
     std::vector<Vector<D, double>> points(g.points.begin(), g.points.end());
@@ -97,6 +100,7 @@ void Convex<D, S>::set(const Geometry& g, double scale) {
     extent_ = first->extent() + second->extent();
     radius_ = first->radius() + second->radius();
     polytope_ = first->polytope() && second->polytope();
+    vertices_ = polytope_ ? std::max(first->vertices(), second->vertices()) : 0;
     if (std::holds_alternative<PointCore<D, S>>(first->core())) core_ = Core(second->core());
     if (std::holds_alternative<PointCore<D, S>>(second->core())) core_ = Core(first->core());
   } else if constexpr (D == 3) {
@@ -104,7 +108,7 @@ void Convex<D, S>::set(const Geometry& g, double scale) {
     if constexpr (std::is_same_v<Geometry, Cone>) core_ = ConeCore<S>{g.axis, scaled(g.radius), scaled(g.half_height)};
     if constexpr (std::is_same_v<Geometry, Cylinder> || std::is_same_v<Geometry, Cone>) {
       extent_ = std::hypot(g.radius, g.half_height) * scale;
-      polytope_ = g.radius == 0;
+      polytope_ = g.radius == 0, vertices_ = polytope_ ? 2 : 0;
     }
   }
 }

@@ -63,6 +63,7 @@ class Convex {
   double radius() const { return radius_; }                          ///< of the ball around the core, times `scale`
   double extent() const { return extent_; }      ///< times `scale`: no core point is farther from `reference()`, and but for sums one is as far
   bool polytope() const { return polytope_; }    ///< whether the core has finitely many extreme points
+  int vertices() const { return vertices_; }     ///< so many of them (of a sum: of the part with more); 0: not finitely many
 
  private:
   Core core_;
@@ -70,6 +71,7 @@ class Convex {
   double radius_ = 0;
   double extent_ = 0;
   bool polytope_ = true;
+  int vertices_ = 1;
 
   template <class Geometry>
   void set(const Geometry& geometry, double scale);
