@@ -281,6 +281,17 @@ TEST_F(Words, TellTheCoresFromTheBodies) {
   EXPECT_FALSE(session.frame().barycentric.empty()) << "the weights that make the witnesses stay";
 }
 
+/// What EPA asks for before it grows is what GJK's simplex lacks, or corners nearer to the answer than a whole tetrahedron's.
+TEST_F(Words, SayWhatEpaStartsFrom) {
+  for (const char* name : {"hulls-around-the-way-out", "hulls-no-octahedron"}) {
+    app.open_gallery(name);
+    for (int k = 1; k <= 4; ++k) EXPECT_EQ(at(first<recorded::PolytopeSeeded>() - static_cast<std::size_t>(k)).title, "Support around the way out") << name;
+  }
+  EXPECT_EQ(at(first<recorded::PolytopeSeeded>()).title, "EPA begins with 12 faces");
+  app.open_gallery("concentric-boxes");
+  EXPECT_EQ(at(first<recorded::PolytopeSeeded>() - 1).title, "Support for EPA's start");
+}
+
 TEST_F(Words, OfARefusedNumberAreThePanels) {
   SceneFile next = session.scene();
   next.method.tolerance = 7;

@@ -8,7 +8,6 @@
 #include "recordings/region_tests.h"
 
 namespace gjkdbg {
-
 namespace {
 
 std::string feature_name(std::size_t vertices) {
@@ -48,6 +47,15 @@ struct Explain : ExplainMotion {
       text += std::string("; \xCE\xBB") + letter + " = " + short_number(weight) + " in " + part + ": the origin lies beyond " + (rest.size() == 1 ? "" : feature_name(rest.size()) + " ") + rest;
     }
     return text;
+  }
+
+  /// Whether GJK left one, not just four points of less.
+  bool solid_tetrahedron() const {
+    std::vector<Eigen::Vector3d> w;
+    for (const int v : frame.simplex)
+      if (const auto found = frame.vertices.find(v); found != frame.vertices.end()) w.push_back(in_space(found->second.w));
+    const auto edge = [&](std::size_t i) -> Eigen::Vector3d { return (w[i] - w[0]).stableNormalized(); };
+    return w.size() == 4 && std::abs(edge(1).cross(edge(2)).dot(edge(3))) > 1e-6;
   }
 
   bool rounded() const { return gjkdbg::rounded(recording.scene.scene); }
@@ -133,7 +141,9 @@ struct Explain : ExplainMotion {
 
   Explanation operator()(const recorded::SupportQueried& e) const {
     const std::string where = "The farthest point of " + difference() + " along d = " + short_vector(e.direction) + " is w = a - b = " + short_vector(e.w) + ". ";
-    if (e.phase == Phase::seed) return {"Support for EPA's start", where + "The simplex GJK left has too few corners for EPA: what is missing is asked for, across what is there."};
+    if (e.phase == Phase::seed)
+      return solid_tetrahedron() && !foreign(recording) ? Explanation{"Support around the way out", where + "GJK's tetrahedron would do as EPA's start, but all of its faces would have to grow. Four corners around the way from the middle of " + difference() + " past the origin begin nearer to the answer."}
+                                 : Explanation{"Support for EPA's start", where + "The simplex GJK left has too few corners for EPA: what is missing is asked for, across what is there."};
     if (e.phase == Phase::mpr)
       return {"Support for the portal", where + (e.direction.dot(e.w) < 0 ? "It lies short of the origin: its plane proves the bodies apart."
                                                                          : "It lies at or past the origin along d, so this plane does not separate the bodies.")};

@@ -91,6 +91,50 @@ TEST(Polytope, GrowsFromRandomPointsInSpace) { grow_from_random_points<3>(); }
 
 using Solid = Polytope<3, double>;
 
+/// Poles up and down the z axis, a ring around it.
+bool start_octahedron(Solid& polytope, const V3& top, const V3& bottom, const std::array<V3, 4>& ring) {
+  std::array<int, 4> numbers;
+  std::transform(ring.begin(), ring.end(), numbers.begin(), [&](const V3& corner) { return polytope.add_point(point<3>(corner)); });
+  return polytope.start_octahedron({polytope.add_point(point<3>(top)), polytope.add_point(point<3>(bottom))}, numbers, 1e-15);
+}
+
+TEST(Polytope, StartsFromAnOctahedron) {
+  Solid polytope;
+  RandomScenes random(5);
+  int started = 0;
+  for (int k = 0; k < 400 && !testing::Test::HasFatalFailure(); ++k) {
+    const auto off = [&] { return V3(random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4)); };
+    polytope.clear();
+    if (!start_octahedron(polytope, V3(0, 0, 1) + off(), V3(0, 0, -1) + off(), {V3(1, 0, 0) + off(), V3(0, 1, 0) + off(), V3(-1, 0, 0) + off(), V3(0, -1, 0) + off()})) continue;
+    ++started;
+    expect_sound(polytope);
+    const int above = polytope.face_below(polytope.add_point(point<3>(V3(1.5, 1.5, 1.5))), 1e-9);
+    ASSERT_GE(above, 0);
+    ASSERT_TRUE(polytope.grow(static_cast<int>(polytope.points().size()) - 1, above));
+    expect_sound(polytope);
+    EXPECT_EQ(polytope.face_below(polytope.add_point(point<3>(V3(0, 0, 0))), 1e-9), -1);
+  }
+  EXPECT_GT(started, 200);
+  EXPECT_LT(started, 400);
+}
+
+TEST(Polytope, RefusesWhatIsNoOctahedronAroundTheOrigin) {
+  const V3 up(0, 0, 1), down(0, 0, -1), x(1, 0, 0), y(0, 1, 0);
+  const auto starts = [](const V3& top, const V3& bottom, const std::array<V3, 4>& ring) {
+    Solid polytope;
+    return start_octahedron(polytope, top, bottom, ring);
+  };
+  EXPECT_TRUE(starts(up, down, {x, y, -x, -y}));
+  EXPECT_FALSE(starts(up, down, {x, -y, -x, y})) << "inside out";
+  EXPECT_FALSE(starts(up, down, {x, x, -x, -y})) << "a corner twice";
+  EXPECT_FALSE(starts(up, up, {x, y, -x, -y})) << "a pole twice";
+  EXPECT_FALSE(starts(up, x, {x, y, -x, -y})) << "a pole in the ring";
+  EXPECT_FALSE(starts(up, down, {V3(0.05, 0, 0), V3(0.3, 0.9, 0), -x, V3(0.3, -0.9, 0)})) << "dented at the first corner";
+  EXPECT_FALSE(starts(up, V3(0, 0, 0.1), {x, y, -x, -y})) << "dented below, and the origin outside";
+  EXPECT_FALSE(starts(up, down, {V3(3, 0, 0), V3(2, 1, 0), V3(1, 0, 0), V3(2, -1, 0)})) << "the origin outside";
+  EXPECT_FALSE(starts(up, down, {V3(1, 0, 0), V3(0.5, 0.5, 0), V3(0, 1, 0), -x - y})) << "two faces in a plane";
+}
+
 void start(Solid& polytope, std::initializer_list<V3> corners) {
   std::array<int, 4> simplex;
   std::transform(corners.begin(), corners.end(), simplex.begin(), [&](const V3& corner) { return polytope.add_point(point<3>(corner)); });
