@@ -143,7 +143,7 @@ class MinkowskiDifference {
   S radius_a() const { return static_cast<S>(a_.radius()); }
   S radius_b() const { return static_cast<S>(b_.radius()); }
   bool polytope() const { return a_.polytope() && b_.polytope(); }
-  /// Of the body with fewer: its own cells of directions are no smaller than those of A - B.
+  /// Of the body with fewer; A - B has no fewer, for each of those is the support of some directions. 0: a body is round.
   int vertices() const { return std::min(a_.vertices(), b_.vertices()); }
   /// B's reference point, seen from A's.
   const V& position() const { return pose_.position; }

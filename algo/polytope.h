@@ -291,8 +291,8 @@ bool Polytope<D, S>::start_octahedron(const std::array<int, 2>& poles, const std
     const Face &face = faces_[k], &other = faces_[4 + k];
     const V& across = at(ring[(k + 2) % 4]);
     const auto below = [&](const Face& f, const V& w) { return f.normal.dot(w) - f.distance < -margin; };
-    for (const Face* f : {&face, &other}) convex &= (f->distance > floor) & (f->distance < std::numeric_limits<S>::infinity()) & below(*f, across);
-    convex &= below(face, at(poles[1]));
+    for (const Face* f : {&face, &other}) convex = convex && f->distance > floor && f->distance < std::numeric_limits<S>::infinity() && below(*f, across);
+    convex = convex && below(face, at(poles[1]));
   }
   return convex;
 }
