@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 
 #include "algo/motion.h"
@@ -16,8 +15,6 @@ namespace gjkdbg {
 namespace {
 
 using V3 = Vector<3, double>;
-
-int runs(int full) { return std::getenv("GJKDBG_PAIRS") ? full / 10 : full; }
 
 AnyVector at(std::initializer_list<double> x) {
   AnyVector v(static_cast<Eigen::Index>(x.size()));
@@ -61,7 +58,7 @@ double gap(const Scene& scene, double time) {
 TEST(Cast, BallsMeetWhenTheQuadraticSays) {
   RandomScenes random(41);
   int hits = 0;
-  for (int k = 0; k < runs(3000); ++k) {
+  for (int k = 0; k < pairs_asked(3000); ++k) {
     const int d = 2 + k % 2;
     AnyVector p(d), v(d);
     for (int i = 0; i < d; ++i) p[i] = random.uniform(-3, 3), v[i] = random.uniform(-8, 8);
@@ -87,14 +84,14 @@ TEST(Cast, BallsMeetWhenTheQuadraticSays) {
     }
     if (testing::Test::HasFailure()) return;
   }
-  EXPECT_GT(hits, runs(3000) / 8);
+  EXPECT_GT(hits, pairs_asked(3000) / 8);
 }
 
 /// Random shapes: nothing overlaps before the time of impact, and at the time it names the pair is within the tolerance.
 TEST(Cast, NothingTunnels) {
   RandomScenes random(42);
   int hits = 0;
-  for (int k = 0; k < runs(10000); ++k) {
+  for (int k = 0; k < pairs_asked(10000); ++k) {
     const int d = 2 + k % 2;
     const bool turning = k % 5 == 0;
     Scene scene = random.scene(d, Family::general, k % 3 != 0);
@@ -128,14 +125,14 @@ TEST(Cast, NothingTunnels) {
     EXPECT_TRUE(found.status == "hit" || found.status == "miss") << found.status << " " << k << " " << word_of(name);
     if (testing::Test::HasFailure()) return;
   }
-  EXPECT_GT(hits, runs(10000) / 10);
+  EXPECT_GT(hits, pairs_asked(10000) / 10);
 }
 
 /// Two methods that look at the pair quite differently: neither goes on after the other has seen the bodies touch.
 TEST(Cast, TurningBodiesMeetByBothMethods) {
   RandomScenes random(7);
   int hits = 0, steps = 0;
-  const int count = runs(4000);
+  const int count = pairs_asked(4000);
   for (int k = 0; k < count; ++k) {
     const int d = 2 + k % 2;
     Scene scene = random.scene(d, Family::general, k % 3 != 0);
@@ -167,7 +164,7 @@ TEST(Cast, TurningBodiesMeetByBothMethods) {
 /// What a turning body reaches along a normal, against where it is at many times; and the mean speed, against the gap it would close.
 TEST(Cast, NoTurningBodyReachesFartherThanItsBound) {
   RandomScenes random(44);
-  for (int k = 0; k < runs(2000); ++k) {
+  for (int k = 0; k < pairs_asked(2000); ++k) {
     const int d = 2 + k % 2;
     Scene scene = random.scene(d, Family::general, true);
     Body& body = scene.bodies[0];
@@ -193,7 +190,7 @@ TEST(Cast, NoTurningBodyReachesFartherThanItsBound) {
 TEST(Cast, TurningBodiesMeetWhenBisectionSays) {
   RandomScenes random(43);
   int hits = 0;
-  for (int k = 0; k < runs(300); ++k) {
+  for (int k = 0; k < pairs_asked(300); ++k) {
     Scene scene = cast_of({resting({Box{-at({1, 0.1}), at({1, 0.1})}, 0}, at({0, 0})), resting({Box{-at({0.4, 0.4}), at({0.4, 0.4})}, 0}, at({random.uniform(-2, 2), random.uniform(1.2, 2)}))}, 2);
     scene.bodies[0].motion->angular_velocity[0] = random.uniform(-4, 4);
     scene.bodies[1].motion->velocity = at({random.uniform(-1, 1), random.uniform(-2, 0)});
@@ -212,7 +209,7 @@ TEST(Cast, TurningBodiesMeetWhenBisectionSays) {
     }
     ++hits;
   }
-  EXPECT_GT(hits, runs(300) / 4);
+  EXPECT_GT(hits, pairs_asked(300) / 4);
 }
 
 Scene simulation(std::vector<Body> bodies, int dimension, double step, int steps, Integrator integrator) {
@@ -261,7 +258,7 @@ TEST(Simulate, AFallIsAParabola) {
 
 TEST(Simulate, CollisionsKeepMomentumAndElasticOnesEnergy) {
   RandomScenes random(44);
-  for (int k = 0; k < runs(100); ++k) {
+  for (int k = 0; k < pairs_asked(100); ++k) {
     const int d = 1 + k % 3;
     std::vector<Body> bodies;
     for (int i = 0; i < 4; ++i) {

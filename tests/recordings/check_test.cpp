@@ -103,7 +103,7 @@ TEST(Check, PointsOutASceneThatAsksForMoreThanItReads) {
 
 TEST(Check, OurOwnRecordingsOfRandomScenesAreClean) {
   RandomScenes random(21);
-  const int count = std::getenv("GJKDBG_PAIRS") ? 200 : 2000;
+  const int count = pairs_asked(2000);
   for (int k = 0; k < count; ++k) {
     SceneFile file;
     file.scene = random.scene(1 + k % 3, static_cast<Family>(k / 3 % family_count), k % 2 == 0);
@@ -145,7 +145,7 @@ std::string named(std::size_t step, const std::string& code) { return std::to_st
 TEST(Check, DistanceQueriesOfOverlapsNameAPointOfBothBodies) {
   RandomScenes random(22);
   std::vector<int> used(method_names.size());
-  const int count = std::getenv("GJKDBG_PAIRS") ? 100 : 400;
+  const int count = std::max(100, pairs_asked(400));
   for (int k = 0; k < count; ++k) {
     SceneFile file;
     file.scene = random.scene(1 + k % 3, static_cast<Family>(k / 3 % family_count), true);
