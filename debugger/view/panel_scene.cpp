@@ -1,18 +1,31 @@
 // The left panel: the open scene with everything that can be edited.
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
 #include <numbers>
 
 #include "algo/motion.h"
 #include "debugger/view/app.h"
 #include "debugger/view/explain.h"
 #include "debugger/view/input.h"
+#include "debugger/view/plot.h"
 
 namespace gjkdbg {
 
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
-constexpr float label_width = 108;  ///< logical pixels
+constexpr float label_width = 96;  ///< logical pixels
+
+/// The most digits with which each of the numbers fits into its share of the room; up to five, of which whole numbers need no exponent.
+const char* format_that_fits(const double* values, int count, float room) {
+  const float field = (room - static_cast<float>(count - 1) * ImGui::GetStyle().ItemInnerSpacing.x) / static_cast<float>(count) - ImGui::GetStyle().FramePadding.x;
+  for (const char* format : {"%.4g", "%.5g", "%.3g", "%.2g"}) {
+    const auto fits = [&](double x) { return ImGui::CalcTextSize(formatted(x, format).c_str()).x <= field; };
+    if (std::all_of(values, values + count, fits)) return format;
+  }
+  return "%.1g";
+}
 
 /// One labelled row of numbers; true when edited.
 bool numbers(const Theme& theme, const char* label, double* values, int count, float speed, const double* low = nullptr) {
@@ -24,10 +37,17 @@ bool numbers(const Theme& theme, const char* label, double* values, int count, f
   ImGui::PushID(label);
   for (int i = 0; i < count; ++i) values[i] += 0.0;  // no "-0"
   const double high = 1e12;
-  const bool edited = ImGui::DragScalarN("##values", ImGuiDataType_Double, values, count, speed, low, low ? &high : nullptr, "%.4g");
+  const char* format = format_that_fits(values, count, ImGui::GetContentRegionAvail().x);
+  const bool short_of = std::any_of(values, values + count, [&](double x) { return std::strtod(formatted(x, format).c_str(), nullptr) != x; });
+  const bool edited = ImGui::DragScalarN("##values", ImGuiDataType_Double, values, count, speed, low, low ? &high : nullptr, format, std::strcmp(format, "%.4g") == 0 ? 0 : ImGuiSliderFlags_NoRoundToFormat);
   takes_a_number();
   ImGui::PopID();
   ImGui::PopFont();
+  if (short_of && ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
+    std::string all;
+    for (int i = 0; i < count; ++i) all += (i == 0 ? "" : ", ") + all_digits(values[i]);
+    ImGui::SetTooltip("%s", all.c_str());
+  }
   return edited;
 }
 
@@ -136,9 +156,7 @@ bool body(const Theme& theme, Body& b, int index, Colour colour, int dimension, 
   ImGui::TextColored(vec(colour), "%s", body_letter(index).c_str());
   if (!b.name.empty() && b.name != body_letter(index)) {
     ImGui::SameLine();
-    ImGui::PushClipRect(ImGui::GetCursorScreenPos(), {ImGui::GetWindowPos().x + theme.px(label_width - 4), ImGui::GetCursorScreenPos().y + ImGui::GetFrameHeight()}, true);
-    ImGui::TextColored(vec(theme.palette.text_soft), "%s", b.name.c_str());
-    ImGui::PopClipRect();
+    ImGui::TextColored(vec(theme.palette.text_soft), "%s", shortened(theme.text, b.name, theme.px(label_width - 4) - ImGui::GetCursorPosX()).c_str());
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", b.name.c_str());
   }
   ImGui::SameLine(theme.px(label_width));
@@ -255,7 +273,7 @@ bool method(App& app, SceneFile& next) {
 
 /// Moving scenes take any number of bodies.
 bool add_body(SceneFile& next) {
-  if (next.scene.bodies.size() >= 12 || !ImGui::SmallButton("add a body")) return false;
+  if (next.scene.bodies.size() >= 12 || !ImGui::Button("add a body")) return false;
   Body body = next.scene.bodies.back();
   body.name.clear();
   body.pose.position[0] += 2 * std::max(1e-9, reach_of(body.shape, next.scene.dimension));
@@ -270,14 +288,10 @@ void scene_panel(App& app) {
   SceneFile next = app.session.scene();
   if (!next.scene.description.empty()) {
     ImGui::PushFont(theme.small);
-    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
-    ImGui::TextWrapped("%s", next.scene.description.c_str());
+    wrapped(next.scene.description, theme.palette.text_soft);
     // On a line that is there before, too: what is edited stays where it is.
-    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_faint));
     const std::string source = next.scene.source.empty() ? "" : "Source: " + next.scene.source;
-    ImGui::TextWrapped("%s%s", source.c_str(), !app.session.can_undo() ? " " : source.empty() ? "edited since" : ", edited since");
-    ImGui::PopStyleColor();
-    ImGui::PopStyleColor();
+    wrapped(source + (!app.session.can_undo() ? " " : source.empty() ? "Edited since." : ", edited since"), theme.palette.text_faint);
     ImGui::PopFont();
   }
   const bool was_active = ImGui::IsAnyItemActive();

@@ -56,8 +56,6 @@ bool of_two_boxes(const Recording& recording, std::size_t step) {
   return false;
 }
 
-std::string body_letter(int body) { return body < 26 ? std::string(1, static_cast<char>('A' + body)) : std::to_string(body); }
-
 namespace {
 
 struct Summarise {
