@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "debugger/render/step_pictures.h"
 #include "debugger/view/explain.h"
 
 namespace gjkdbg {
