@@ -193,7 +193,7 @@ bool choice(const Theme& theme, const char* label, int& value, const Names& name
   const std::string now(names[static_cast<std::size_t>(value)]);
   const float room = ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - 2 * ImGui::GetStyle().FramePadding.x;
   const bool open = ImGui::BeginCombo("##choice", shortened(theme.text, now, room).c_str());
-  if (!open && ImGui::IsItemHovered() && ImGui::CalcTextSize(now.c_str()).x > room) ImGui::SetTooltip("%s", now.c_str());
+  if (!open && ImGui::IsItemHovered()) tooltip(theme, (ImGui::CalcTextSize(now.c_str()).x > room ? now + "\n" : "") + meaning);
   if (open) {
     for (const int i : offered)
       if (ImGui::Selectable(std::string(names[static_cast<std::size_t>(i)]).c_str(), i == value)) value = i, edited = true;
@@ -219,6 +219,41 @@ bool start(const Theme& theme, const Settings& now, SceneFile& next) {
   return edited;
 }
 
+/// What GJK and EPA are told.
+bool gjk_settings(const Theme& theme, const Settings& now, SceneFile& next) {
+  int part = static_cast<int>(now.closest_point);
+  if (now.name == MethodName::gjk_boolean || now.name == MethodName::closed_form) return false;
+  bool edited = false;
+  if (choice(theme, "closest point", part, closest_point_names, {0, 1, 2}, "How GJK finds the simplex's point nearest the origin: by signed volumes, by Johnson's determinants, or by going through the Voronoi regions of its parts.")) next.method.closest_point = static_cast<ClosestPoint>(part), edited = true;
+  if (start(theme, now, next)) edited = true;
+  int directions = static_cast<int>(now.acceleration), rule = static_cast<int>(now.stopping), deep = static_cast<int>(now.penetration);
+  if (now.name == MethodName::gjk_accelerated && choice(theme, "directions", directions, acceleration_names, {0, 1, 2}, "What replaces the direction -v: a momentum (Nesterov's or Polyak's), or Newton's step by the curvature of the bodies.")) next.method.acceleration = static_cast<Acceleration>(directions), edited = true;
+  if (choice(theme, "stopping", rule, stopping_names, {0, 1, 2, 3, 4}, "When GJK is done: when the bounds of the distance meet (ours), or by the rule of another implementation, which may stop early.")) next.method.stopping = static_cast<Stopping>(rule), edited = true;
+  if ((next.scene.query == Query::penetration || next.scene.query == Query::contact) && choice(theme, "when deep", deep, penetration_names, {0, 1, 2}, "What measures the depth of an overlap: EPA, the shortest way out; MPR, a way out in one direction; or nothing.")) next.method.penetration = static_cast<Penetration>(deep), edited = true;
+  return edited;
+}
+
+/// Where a run ends.
+bool limits(const Theme& theme, const Settings& now, SceneFile& next) {
+  bool edited = false;
+  setting_label(theme, "tolerance", "How far apart the bounds may be at the end, as a share of the distance or depth.");
+  ImGui::SameLine(theme.px(label_width));
+  ImGui::SetNextItemWidth(-1);
+  ImGui::PushFont(theme.mono);
+  double tolerance = now.tolerance;
+  if (ImGui::InputDouble("##tolerance", &tolerance, 0, 0, "%.3g", ImGuiInputTextFlags_EnterReturnsTrue)) next.method.tolerance = tolerance, edited = true;
+  takes_a_number();
+  ImGui::PopFont();
+  int limit = now.max_iterations;
+  setting_label(theme, "max iterations", "Where each of GJK, EPA and the others gives up, and says so.");
+  ImGui::SameLine(theme.px(label_width));
+  ImGui::SetNextItemWidth(-1);
+  ImGui::PushFont(theme.mono);
+  if (ImGui::InputInt("##limit", &limit, 0, 0, ImGuiInputTextFlags_EnterReturnsTrue)) next.method.max_iterations = limit, edited = true;
+  ImGui::PopFont();
+  return edited;
+}
+
 bool method(App& app, SceneFile& next) {
   const Theme& theme = app.theme;
   const Settings& now = app.session.recording().settings;
@@ -237,38 +272,15 @@ bool method(App& app, SceneFile& next) {
     if (query != 0 && now.name == MethodName::gjk_boolean) next.method.name = MethodName::gjk;
   }
   if (choice(theme, "method", name, method_names, possible_methods(next), "The algorithm: those that take these bodies and answer this query.")) change_name(next.method, static_cast<MethodName>(name)), edited = true;
-  int part = static_cast<int>(now.closest_point);
-  const bool distances = now.name != MethodName::gjk_boolean && now.name != MethodName::closed_form;
   const bool takes_over = now.name == MethodName::mpr || now.name == MethodName::sat || now.name == MethodName::projections;
-  if (takes_over) {
-    ImGui::PushFont(theme.small);
-    wrapped("Where GJK and EPA take over from it:", theme.palette.text_faint);
-    ImGui::PopFont();
-  }
-  if (distances && choice(theme, "closest point", part, closest_point_names, {0, 1, 2}, "How GJK finds the simplex's point nearest the origin: by signed volumes, by Johnson's determinants, or by going through the Voronoi regions of its parts.")) next.method.closest_point = static_cast<ClosestPoint>(part), edited = true;
-  if (distances && start(theme, now, next)) edited = true;
-  int directions = static_cast<int>(now.acceleration), rule = static_cast<int>(now.stopping), deep = static_cast<int>(now.penetration);
-  if (now.name == MethodName::gjk_accelerated && choice(theme, "directions", directions, acceleration_names, {0, 1, 2}, "What replaces the direction -v: a momentum (Nesterov's or Polyak's), or Newton's step by the curvature of the bodies.")) next.method.acceleration = static_cast<Acceleration>(directions), edited = true;
-  if (distances && choice(theme, "stopping", rule, stopping_names, {0, 1, 2, 3, 4}, "When GJK is done: when the bounds of the distance meet (ours), or by the rule of another implementation, which may stop early.")) next.method.stopping = static_cast<Stopping>(rule), edited = true;
-  if (distances && (query == 2 || query == 3) && choice(theme, "when deep", deep, penetration_names, {0, 1, 2}, "What measures the depth of an overlap: EPA, the shortest way out; MPR, a way out in one direction; or nothing.")) next.method.penetration = static_cast<Penetration>(deep), edited = true;
+  if (!takes_over) edited |= gjk_settings(theme, now, next);
   if (choice(theme, "scalar", scalar, scalar_names, {0, 1}, "What is counted in: double has 16 digits, float 7.")) next.method.scalar = static_cast<Scalar>(scalar), next.method.tolerance.reset(), edited = true;
-  if (now.name == MethodName::closed_form) return edited;  // a formula neither converges nor iterates
-  setting_label(theme, "tolerance", "How far apart the bounds may be at the end, as a share of the distance or depth.");
-  ImGui::SameLine(theme.px(label_width));
-  ImGui::SetNextItemWidth(-1);
-  ImGui::PushFont(theme.mono);
-  double tolerance = now.tolerance;
-  if (ImGui::InputDouble("##tolerance", &tolerance, 0, 0, "%.3g", ImGuiInputTextFlags_EnterReturnsTrue)) next.method.tolerance = tolerance, edited = true;
-  takes_a_number();
+  if (now.name != MethodName::closed_form) edited |= limits(theme, now, next);  // a formula neither converges nor iterates
+  if (!takes_over) return edited;
+  ImGui::PushFont(theme.small);
+  wrapped("Where GJK and EPA take over from it:", theme.palette.text_faint);
   ImGui::PopFont();
-  int limit = now.max_iterations;
-  setting_label(theme, "max iterations", "Where each of GJK, EPA and the others gives up, and says so.");
-  ImGui::SameLine(theme.px(label_width));
-  ImGui::SetNextItemWidth(-1);
-  ImGui::PushFont(theme.mono);
-  if (ImGui::InputInt("##limit", &limit, 0, 0, ImGuiInputTextFlags_EnterReturnsTrue)) next.method.max_iterations = limit, edited = true;
-  ImGui::PopFont();
-  return edited;
+  return gjk_settings(theme, now, next) || edited;
 }
 
 /// Moving scenes take any number of bodies.
