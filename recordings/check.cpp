@@ -44,6 +44,22 @@ std::string list_of(const std::vector<int>& numbers) {
   return out + "]";
 }
 
+std::string by_length(double length) {
+  return " The distance is measured with a normal of length " + text_of(length) + ": divide the normal by its length first, or faces of larger area look farther away.";
+}
+
+std::string winding_hint(const std::vector<std::vector<int>>& faces) {
+  std::map<std::pair<int, int>, const std::vector<int>*> edges;
+  const std::string rule = " Where the horizon is what is left when edges are cancelled by their opposite direction, all faces have to be wound alike";
+  for (const std::vector<int>& face : faces)
+    for (std::size_t i = 0; face.size() == 3 && i < 3; ++i) {
+      const auto [other, is_new] = edges.try_emplace({face[i], face[(i + 1) % 3]}, &face);
+      if (!is_new)
+        return rule + ": before this step the edge " + std::to_string(face[i]) + "-" + std::to_string(face[(i + 1) % 3]) + " ran the same way in " + list_of(*other->second) + " and " + list_of(face) + ". Wind a new face (p, q, new) as the edge (p, q) ran in the face that was removed.";
+    }
+  return edges.empty() ? "" : rule + ", as they were before this step: then two that share an edge have it in opposite directions, and (p, q) is cancelled by (q, p), not by (p, q).";
+}
+
 bool contains(const std::vector<int>& list, int x) { return std::find(list.begin(), list.end(), x) != list.end(); }
 
 CheckContext::CheckContext(const Recording& r) : recording(r), dimension(r.scene.scene.dimension), inferred(r.generator.starts_with("a solver under ")) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "recordings/check.h"
+#include "recordings/check_text.h"
 #include "shapes/world_support.h"
 
 namespace gjkdbg {
@@ -21,11 +22,6 @@ struct NearestPoint {
 };
 NearestPoint nearest_point(const std::vector<AnyVector>& points);
 
-std::string text_of(double x);
-/// A bound; one that is not known says so.
-std::string bound_text(double x);
-std::string text_of(const AnyVector& v);
-std::string list_of(const std::vector<int>& numbers);
 bool contains(const std::vector<int>& list, int x);
 
 class CheckContext {
@@ -229,7 +225,8 @@ class EpaCheck {
   void tell_no_gain();
   void check_removed(const recorded::PolytopeGrown& e, const std::map<int, Face>& before);
   void check_kept(int newest);
-  bool check_closed();
+  bool check_closed(const std::map<int, Face>& before);
+  std::string winding_of(const std::map<int, Face>& faces) const;
   void check_convex(const std::vector<recorded::Face>& added, std::optional<int> newest);
   void check_origin();
   std::vector<std::pair<int, const AnyVector*>> used() const;
