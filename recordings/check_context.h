@@ -68,6 +68,14 @@ class CheckContext {
   /// What is harmless by itself, but the likely cause where an answer is wrong later on. The first counts; where the claim of an overlap is wrong, only one of
   /// the simplex that it is made of.
   void suspect(const char* code, const std::string& message);
+  /// What explains a wrong answer where nothing better does.
+  void doubt(const char* code, const std::string& message) { if (!doubt_) doubt_ = Finding{step, Finding::Severity::error, code, message}; }
+  /// EPA's face is not on the boundary, though the depth is right: what else is wrong at the end comes of that.
+  void short_of_boundary(const std::string& message) { short_ = Finding{step, Finding::Severity::error, "stopped-early", message}; }
+  /// Nothing of the simplex was kept. Once, a search may begin anew; over and over, that is the cause of what goes wrong.
+  void reset(const std::string& message);
+  /// The finding of this code says itself what it comes of.
+  void explained(const char* code) { explained_.insert(code); }
   /// Whether there is a finding of this code so far.
   bool found(const char* code) const { return seen_.contains(code); }
   std::vector<Finding> take();
@@ -88,12 +96,15 @@ class CheckContext {
   bool told_cores_ = true;  ///< what `cores` is outside MPR
   std::optional<Result> reference_;
   std::vector<Finding> findings_;
-  std::set<std::string> seen_;
-  std::optional<Finding> suspicion_, last_suspicion_;
+  std::set<std::string> seen_, explained_;
+  std::optional<Finding> suspicion_, last_suspicion_, doubt_, short_, reset_;
+  int resets_ = 0;
 };
 
 /// How far a point lies outside a body, surely.
 double outside(const Scene& scene, std::size_t body, const AnyVector& point);
+/// What witnesses that are wrong are instead, a sentence; empty where that is not known.
+std::string mistaken_witnesses(CheckContext& context, double slack);
 
 /// What holds for every event: phases end once, numbers are given out once, supports are supports, bounds hold the answer.
 class TraceCheck {
