@@ -85,10 +85,17 @@ class CheckContext {
   bool check_direction(const AnyVector& d);
   /// Of a vector off by no more than its own digits: that it was printed with six of them. False for others.
   bool of_few_digits(const AnyVector& given, const AnyVector& right, const std::string& what);
+  /// Where a vector is off by no more than single precision leaves of the vertices' places in the world: a sentence that says so.
+  std::string lost_far_out(const std::vector<int>& numbers, double off) const;
+
+  /// Ends the warning of a direction that is off in a run that is right.
+  static constexpr std::string_view harmless = " Where all else is right this costs iterations, not the answer.";
 
  private:
   std::optional<std::size_t> last_simplex() const;
   void put_causes_first();
+  std::optional<Finding> cause_of(const Finding& root) const;
+  void tell_what_to_report(Finding& root) const;
 
   std::optional<WorldSupport> a_, b_;
   std::vector<std::pair<WorldSupport, WorldSupport>> nearest_;  ///< of meshes: the parts as near as the bodies
@@ -193,12 +200,17 @@ class GjkCheck {
   bool begins_again(const recorded::SimplexReduced& e);
   void note_unkept(double v, const std::vector<int>& all);
   void check_returned(double v);
+  std::string stopping_test(double v, const std::string& nearer) const;
+  std::string not_enclosed(const std::vector<int>& simplex, double v);
+  bool first_negated(const AnyVector& direction) const;
+  std::string advice_for_cycle(std::size_t period) const;
   bool heuristic_region(const std::vector<int>& before, const std::vector<int>& region, const AnyVector& v);
 
   CheckContext& c_;
   std::vector<int> simplex_, pending_;  ///< kept, and queried since
   bool reported_ = false;               ///< whether any simplex was
-  AnyVector last_direction_;
+  AnyVector first_direction_, last_direction_;
+  int queries_ = 0;
   int stuck_ = 0;  ///< how often the search went on although nothing had changed
   double best_plane_ = -1e300;
   std::map<std::string, std::size_t> regions_;

@@ -339,9 +339,10 @@ void EpaCheck::operator()(const recorded::EpaEnded& e) {
   if (c_.inferred && r.signed_distance && !within && !is_it)
     c_.find("wrong-depth", "The depth is given as " + text_of(e.depth) + ", but the face chosen last, " + name(found->first) + ", lies " + text_of(face.distance) + " from the origin, and A - B reaches " + text_of(height) +
                                " along its normal: the depth is between these. What is returned is not what was found.");
-  if (!right && height - face.distance > c_.stop * std::max(height, c_.size))
-    c_.find("stopped-early", "EPA ended at " + name(found->first) + ", " + text_of(face.distance) + " from the origin, but A - B reaches " + text_of(height) + " along its normal: the face is not on the boundary. The usual cause is a tolerance that is too coarse, or a "
-                             "limit on iterations taken for convergence.");
+  if (height - face.distance <= c_.stop * std::max(height, c_.size)) return;
+  const std::string message = "EPA ended at " + name(found->first) + ", " + text_of(face.distance) + " from the origin, but A - B reaches " + text_of(height) + " along its normal: the face is not on the boundary. The usual cause is a tolerance that is too coarse, or a "
+                              "limit on iterations taken for convergence.";
+  right ? c_.short_of_boundary(message) : c_.find("stopped-early", message);
 }
 
 }  // namespace gjkdbg
