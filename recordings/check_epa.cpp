@@ -336,7 +336,11 @@ void EpaCheck::operator()(const recorded::EpaEnded& e) {
   // Bounds of smooth differences meet slowly, so that a depth may be off; not by more than the search itself left open.
   const double slack = std::max(c_.tolerance, 1e-7 * c_.size), reference = -*c_.reference().signed_distance;
   const bool within = e.depth >= face.distance - slack && e.depth <= height + slack, is_it = std::abs(e.depth - reference) <= 10 * slack + *c_.reference().upper_bound - *c_.reference().lower_bound;
-  if (c_.inferred && r.signed_distance && !within && !is_it)
+  if (c_.inferred && r.signed_distance && !within && !is_it && -e.depth >= face.distance - slack && -e.depth <= height + slack) {
+    c_.explained("wrong-depth");
+    c_.find("wrong-depth", "signed_distance is given as " + text_of(-e.depth) + ", above zero, but the bodies overlap, and " + name(found->first) + ", the face chosen last, lies as far from the origin. That is the right length with its sign turned: apart is "
+                           "above zero, a depth below.");
+  } else if (c_.inferred && r.signed_distance && !within && !is_it)
     c_.find("wrong-depth", "The depth is given as " + text_of(e.depth) + ", but the face chosen last, " + name(found->first) + ", lies " + text_of(face.distance) + " from the origin, and A - B reaches " + text_of(height) +
                                " along its normal: the depth is between these. What is returned is not what was found.");
   if (height - face.distance <= c_.stop * std::max(height, c_.size)) return;

@@ -7,6 +7,8 @@
 namespace gjkdbg {
 
 double outside(const Scene& scene, std::size_t body, const AnyVector& point) {
+  constexpr double longest = 1e60;  // of a scene's lengths: compared with what is longer all of a body is one point, and the square of 1e155 is none
+  if (const double far = point.stableNorm(); !(far <= 2 * longest)) return far;
   Scene probe = scene;
   Body& other = probe.bodies[1 - body];
   other.shape = {PointSet{PointSetKind::point, {AnyVector::Zero(scene.dimension)}, {}}, 0};
@@ -110,7 +112,7 @@ struct Judge {
   /// b - a = signed_distance * normal.
   bool belong_together(const AnyVector& a, const AnyVector& b) const { return (b - a - *r.signed_distance * *r.normal).norm() <= 10 * c.answer_tolerance() + rounding(); }
   /// What points of the world have lost far from its origin.
-  double rounding() const { return c.digits() * std::max(r.witness_a ? r.witness_a->norm() : 0, r.witness_b ? r.witness_b->norm() : 0); }
+  double rounding() const { return c.digits() * std::max(r.witness_a ? r.witness_a->stableNorm() : 0, r.witness_b ? r.witness_b->stableNorm() : 0); }
 
   void witnesses() const {
     const Scene& scene = c.recording.scene.scene;

@@ -47,5 +47,7 @@ CAUSES = [
     ("v for a witness when deep", "kit", "box-box-deep", [(DEEP, "witness_a=scaled(depth, normal)")], "wrong-witness", ["witness_a is v = "], []),
     ("horizon with shared edges", "kit", "box-box-deep", [("if ridges.count(r) == 1]", "]")], "open-polytope", ["cancelled by their opposite direction", "wound alike"], []),
     ("a long normal without a polytope", "kit", "box-box-deep", [('say(type="polytope", ', "dict("), ("normal=normal, distance=distance)", "normal=scaled(3, normal), distance=3 * distance)")], "wrong-face", ["with a normal of length 3: divide the normal by its length first", "not 000000"], []),
+    ("the depth as a length", "kit", "box-box-deep", [("signed_distance=-depth", "signed_distance=depth")], "wrong-depth", ["signed_distance is given as 0.399317, above zero", "the right length with its sign turned", "not What is returned"], []),
+    ("a simplex of vertices that are none, after the polytope", "kit", "box-box-deep", [('say(type="result", **solve(scene["dimension"], scene["query"], scene["tolerance"]))', 'answer = solve(scene["dimension"], scene["query"], scene["tolerance"])\n    say(type="simplex", vertices=[55])\n    say(type="result", **answer)')], "unknown-vertex", ["The simplex names vertex 55"], []),
     ("EPA's limit, and what follows", "kit", "spheres-concentric", [("or len(faces) > 600", "or len(faces) > 40"), (DEEP, "witness_a=combine([1, depth / 2.2], [middle, normal])")], "stopped-early", ["the face is not on the boundary"], []),
 ]

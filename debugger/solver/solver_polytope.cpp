@@ -119,7 +119,7 @@ void SolverRecorder::face(const Json& json) {
   // Of a polytope's faces the recording holds the numbers, and `check` sees them; of this one it would not.
   for (const int v : vertices)
     if (!vertices_.contains(v)) {
-      recording_.events.push_back(recorded::Warning{"unknown-vertex", "The face chosen names vertex " + std::to_string(v) + ", which was never handed out by a support query; " + std::to_string(supports_) + " were so far."});
+      recording_.events.push_back(unknown("The face chosen", v));
       break;
     }
   const auto found = faces_.find(std::set<int>(vertices.begin(), vertices.end()));

@@ -167,7 +167,14 @@ void SolverRecorder::simplex(const Json& json) {
   e.lower_bound = e.upper_bound = nan;
   simplex_ = e.region;
   pending_.clear();
-  if (!gjk_ended_) recording_.events.push_back(std::move(e));
+  if (!gjk_ended_) return recording_.events.push_back(std::move(e));
+  // EPA has begun, and no search is told any more; a vertex that is none is one all the same.
+  for (const int v : simplex_)
+    if (!vertices_.contains(v)) return recording_.events.push_back(unknown("The simplex", v));
+}
+
+recorded::Warning SolverRecorder::unknown(const std::string& what, int vertex) const {
+  return {"unknown-vertex", what + " names vertex " + std::to_string(vertex) + ", which was never handed out by a support query; " + std::to_string(supports_) + " were so far."};
 }
 
 void SolverRecorder::end_gjk(GjkStatus status) {

@@ -47,6 +47,7 @@ class SolverRecorder {
   recorded::Face make_face(const std::vector<int>& vertices);
   void orient(std::vector<recorded::Face>& faces) const;
   std::string winding() const;
+  recorded::Warning unknown(const std::string& what, int vertex) const;
   void grow(const std::set<std::set<int>>& wanted, std::vector<recorded::Face> added);
 
   Recording recording_;

@@ -38,6 +38,19 @@ TEST(CheckResult, AWitnessAloneIsAsFarFromTheOtherBodyAsTheBodiesAreApart) {
   EXPECT_EQ(first_code("[3, 0]", "penetration", R"("intersecting": false, "signed_distance": 1, "normal": [1, 0], "witness_b": [4, 0])"), "wrong-witness");
 }
 
+/// Squares of such lengths are infinite, and nothing is outside an infinite slack.
+TEST(CheckResult, WitnessesFarBeyondEveryScene) {
+  for (const double far : {1e100, 1e155, 1e200, 1e300}) {
+    Recording recording = record(read_scene(read_gallery(GJKDBG_GALLERY).file("box-box-deep")));
+    recording.result.witness_a = AnyVector(Eigen::Vector3d(far, far, 0));
+    const std::vector<Finding> findings = check(recording);
+    ASSERT_FALSE(findings.empty()) << far;
+    EXPECT_EQ(findings[0].code, "wrong-witness") << far;
+    EXPECT_EQ(findings[0].message.find("nan"), std::string::npos) << findings[0].message;
+    EXPECT_EQ(findings[0].message.find("inf"), std::string::npos) << findings[0].message;
+  }
+}
+
 TEST(CheckResult, WitnessesOfAnOverlap) {
   EXPECT_EQ(first_code("[1.5, 0.25]", "penetration", R"("intersecting": true, "signed_distance": -0.5, "witness_a": [1, 0], "witness_b": [0.5, 0])"), "");
   EXPECT_EQ(first_code("[1.5, 0.25]", "penetration", R"("intersecting": true, "signed_distance": -0.5, "witness_a": [1, 0], "witness_b": [1, 0])"), "wrong-witness");

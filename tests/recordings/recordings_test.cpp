@@ -151,7 +151,7 @@ TEST(Verify, FindsWhatARunLeavesOut) {
   const auto difference = verify(asked);
   ASSERT_TRUE(difference);
   EXPECT_EQ(difference->what, "result");
-  EXPECT_EQ(difference->fields, (std::vector<std::string>{"normal", "pair", "signed_distance"}));
+  EXPECT_EQ(difference->fields, (std::vector<std::string>{"signed_distance", "normal", "pair"}));
   Recording miss = record(read_scene(gallery().file("cast-receding")));
   EXPECT_FALSE(verify(miss));
   miss.result.lower_bound = 1.0;
