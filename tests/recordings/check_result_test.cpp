@@ -4,6 +4,7 @@
 #include <string>
 
 #include "recordings/check.h"
+#include "recordings/comparison.h"
 #include "recordings/gallery.h"
 #include "recordings/replay.h"
 
@@ -132,6 +133,21 @@ TEST(CheckResult, StatusesAreThoseOfTheSteps) {
   };
   EXPECT_NE(edited("obb-shallow", MethodName::sat, other_distance), "");
   EXPECT_NE(edited("sat-2d-apart", MethodName::sat, other_distance), "");
+}
+
+/// What a file tells beyond what was asked for is no part of a run.
+TEST(Verify, FindsWhatARunLeavesOut) {
+  Recording asked = record(read_scene(read_gallery(GJKDBG_GALLERY).file("2d-intersect-only")));
+  EXPECT_FALSE(verify(asked));
+  asked.result.signed_distance = 3.0, asked.result.normal = AnyVector(Eigen::Vector2d(1, 0)), asked.result.pair = {0, 1};
+  const auto difference = verify(asked);
+  ASSERT_TRUE(difference);
+  EXPECT_EQ(difference->what, "result");
+  EXPECT_EQ(difference->fields, (std::vector<std::string>{"signed_distance", "normal", "pair"}));
+  Recording miss = record(read_scene(read_gallery(GJKDBG_GALLERY).file("cast-receding")));
+  EXPECT_FALSE(verify(miss));
+  miss.result.lower_bound = 1.0;
+  EXPECT_TRUE(verify(miss));
 }
 
 }  // namespace
