@@ -349,6 +349,11 @@ class OrderCheck {
 void check_result(CheckContext& context, double best_plane);
 /// The steps of one run inside a motion, as of a recording of its two bodies at rest: events before `first` stand for nothing.
 std::vector<Finding> check_steps(const Recording& run, std::size_t first);
+/// Whether the run that a contact comes from came to its limit: GJK's distance along its normal is then less than it says, EPA's points may lie beside the bodies.
+struct RunEnds {
+  bool gjk_at_limit, epa_at_limit;
+};
+RunEnds ends_before(const CheckContext& context, std::size_t contact);
 /// A contact of a simulation, of two bodies where they are then.
 void check_contact(CheckContext& context, const Scene& two, const recorded::ContactFound& contact);
 /// The runs of GJK and EPA inside a motion, each by itself.
