@@ -162,15 +162,29 @@ Points common_outline(const FlatFeature& incident, const FlatFeature& reference,
   return clip_to_sides(incident.points, reference.points, n);
 }
 
+/// How far behind a point x of an edge with a radius the surface lies, along the reference's normal n. In the plane, with the edge from its deeper end on
+/// (low) rising by the angle theta, the surface is a line parallel to it, r / cos theta behind x, whose points come from places r tan theta farther down the
+/// edge; where the edge ends before, the surface is the ball around `low`: x is h higher than that and s beside it, so h + sqrt(r^2 - s^2).
+/// In space x - n r is taken, which lies in the body and on its surface where the feature is level.
+double surface_behind(const AnyVector& x, const FlatFeature& incident, const AnyVector& n) {
+  const double r = incident.radius;
+  if (n.size() != 2 || r == 0 || incident.points.size() != 2) return r;
+  const bool in_order = n.dot(incident.points[0]) <= n.dot(incident.points[1]);
+  const AnyVector &low = incident.points[in_order ? 0 : 1], &high = incident.points[in_order ? 1 : 0], edge = high - low, along = x - low;
+  const double length = edge.norm(), rise = n.dot(edge), level = (edge - n * rise).norm(), h = n.dot(along), s = (along - n * h).norm();
+  if (along.norm() * level >= r * rise) return level > 0 ? r * length / level : r;
+  return h + std::sqrt(std::max(0.0, r * r - s * s));
+}
+
 /// Contacts of an incident feature behind a reference face. `n` is the reference's outward normal.
 /// With r0 on the face and x a clipped corner, x lies n . (r0 - x) deep in the core; the radii add to that.
 std::vector<ContactPoint> behind(const Points& clipped, const AnyVector& r0, const AnyVector& n, double reference_radius,
-                                 double incident_radius, double size, bool reference_is_a) {
+                                 const FlatFeature& incident, double size, bool reference_is_a) {
   std::vector<ContactPoint> contacts;
   for (const AnyVector& x : clipped) {
-    const double depth = n.dot(r0 - x) + reference_radius + incident_radius;
+    const double below = surface_behind(x, incident, n), depth = n.dot(r0 - x) + reference_radius + below;
     if (depth < -1e-12 * size) continue;
-    const AnyVector on_incident = x - n * incident_radius, on_reference = on_incident + n * depth;
+    const AnyVector on_incident = x - n * below, on_reference = on_incident + n * depth;
     const auto same = [&](const ContactPoint& c) {
       return ((reference_is_a ? c.point_b : c.point_a) - on_incident).norm() <= 1e-9 * size;
     };
@@ -194,11 +208,11 @@ std::vector<ContactPoint> contact_points(const Body& a, const Body& b, const Res
   const double size = reference.size + incident.size + reference.radius + incident.radius;
   if (reference.alignment < alignment_limit) {
     const auto line_a = line_across(*face_a, n), line_b = line_across(*face_b, -n);
-    const auto contacts = behind(line_beside_line(line_a, line_b), line_a ? (*line_a)[0] : n, n, face_a->radius, face_b->radius, size, true);
+    const auto contacts = behind(line_beside_line(line_a, line_b), line_a ? (*line_a)[0] : n, n, face_a->radius, *face_b, size, true);
     return contacts.empty() ? witness : contacts;
   }
   const AnyVector outward = reference_is_a ? n : AnyVector(-n), on_face = reference.disc ? AnyVector(reference.disc->center) : reference.points[0];
-  const auto contacts = behind(common_outline(incident, reference, outward), on_face, outward, reference.radius, incident.radius, size, reference_is_a);
+  const auto contacts = behind(common_outline(incident, reference, outward), on_face, outward, reference.radius, incident, size, reference_is_a);
   return contacts.empty() ? witness : contacts;
 }
 

@@ -45,6 +45,22 @@ std::string list_of(const std::vector<int>& numbers) {
   return out + "]";
 }
 
+std::string by_length(double length) {
+  return " The distance is measured with a normal of length " + text_of(length) + ": divide the normal by its length first, or faces of larger area look farther away.";
+}
+
+std::string winding_hint(const std::vector<std::vector<int>>& faces) {
+  std::map<std::pair<int, int>, const std::vector<int>*> edges;
+  const std::string rule = " Where the horizon is what is left when edges are cancelled by their opposite direction, all faces have to be wound alike";
+  for (const std::vector<int>& face : faces)
+    for (std::size_t i = 0; face.size() == 3 && i < 3; ++i) {
+      const auto [other, is_new] = edges.try_emplace({face[i], face[(i + 1) % 3]}, &face);
+      if (!is_new)
+        return rule + ": before this step the edge " + std::to_string(face[i]) + "-" + std::to_string(face[(i + 1) % 3]) + " ran the same way in " + list_of(*other->second) + " and " + list_of(face) + ". Wind a new face (p, q, new) as the edge (p, q) ran in the face that was removed.";
+    }
+  return edges.empty() ? "" : rule + ", as they were before this step: then two that share an edge have it in opposite directions, and (p, q) is cancelled by (q, p), not by (p, q).";
+}
+
 bool contains(const std::vector<int>& list, int x) { return std::find(list.begin(), list.end(), x) != list.end(); }
 
 CheckContext::CheckContext(const Recording& r) : recording(r), dimension(r.scene.scene.dimension), inferred(r.generator.starts_with("a solver under ")) {
@@ -132,60 +148,6 @@ double CheckContext::short_of_support(std::size_t body, const AnyVector& directi
   return std::max(least, outside(recording.scene.scene, body, point));
 }
 
-void CheckContext::find(const char* code, const std::string& message, Finding::Severity severity) {
-  if (!seen_.insert(code).second) return;
-  findings_.push_back({step, severity, code, message});
-}
-
-void CheckContext::suspect(const char* code, const std::string& message) {
-  last_suspicion_ = Finding{step, Finding::Severity::error, code, message};
-  if (!suspicion_) suspicion_ = last_suspicion_;
-}
-
-/// The step that reduced a simplex last.
-std::optional<std::size_t> CheckContext::last_simplex() const {
-  for (std::size_t i = recording.events.size(); i-- > 0;)
-    if (std::holds_alternative<recorded::SimplexReduced>(recording.events[i])) return i;
-  return std::nullopt;
-}
-
-/// Of one step: what says most exactly what went wrong before what only shows it.
-void CheckContext::put_causes_first() {
-  static constexpr std::pair<std::string_view, std::string_view> pairs[] = {
-      {"unjustified-separation", "stopped-early"}, {"visible-face-kept", "wrong-horizon"}, {"open-polytope", "wrong-horizon"}, {"wrong-face", "not-closest-face"}};
-  const auto holds = [this](std::string_view cause) {
-    if (cause == "unjustified-separation") return !recording.result.signed_distance || *reference().signed_distance <= 0;  // apart they are: the distance is not yet one
-    return cause != "wrong-face" || inferred;  // a solver's faces are known by their vertices, ours by number
-  };
-  for (const auto& [cause, shown] : pairs) {
-    const auto of = [&](std::string_view code) { return std::find_if(findings_.begin(), findings_.end(), [&](const Finding& f) { return f.code == code; }); };
-    const auto first = of(shown), second = of(cause);
-    if (first != findings_.end() && second != findings_.end() && first < second && first->step == second->step && holds(cause)) std::rotate(first, second, second + 1);
-  }
-}
-
-std::vector<Finding> CheckContext::take() {
-  const auto is_error = [](const Finding& f) { return f.severity == Finding::Severity::error; };
-  std::stable_sort(findings_.begin(), findings_.end(), [&](const Finding& x, const Finding& y) { return x.step != y.step ? x.step < y.step : is_error(x) && !is_error(y); });
-  put_causes_first();
-  auto root = std::find_if(findings_.begin(), findings_.end(), is_error);
-  if (root == findings_.end()) return std::move(findings_);
-  static const std::set<std::string_view> consequences{"wrong-witness", "wrong-normal",  "wrong-distance",  "wrong-depth", "wrong-answer", "stopped-early", "origin-not-enclosed", "unjustified-separation",
-                                                       "cycle",         "no-progress",   "support-limit",   "timeout",     "crash"};
-  const bool of_the_last = root->code == std::string_view("origin-not-enclosed") || root->code == std::string_view("wrong-answer");
-  const std::optional<Finding>& cause = of_the_last ? last_suspicion_ : suspicion_;
-  const bool of_the_result = last_is_nearest && root->step + 1 == recording.events.size();  // the search came to the right end
-  if (cause && !of_the_result && (!of_the_last || cause->step == last_simplex()) && cause->step < root->step && consequences.contains(root->code) && !seen_.contains(cause->code)) {
-    findings_.insert(root, *cause);
-    std::stable_sort(findings_.begin(), findings_.end(), [](const Finding& x, const Finding& y) { return x.step < y.step; });
-    root = std::find_if(findings_.begin(), findings_.end(), is_error);
-  }
-  for (auto f = findings_.begin(); f != root; ++f)
-    if (f->step < root->step && f->code == std::string_view("direction-not-perpendicular")) root->message += " It may come of the direction of step " + std::to_string(f->step) + ".";
-  for (auto f = root + 1; f != findings_.end(); ++f) f->message = "Follows from step " + std::to_string(root->step) + ", probably. " + f->message;
-  return std::move(findings_);
-}
-
 const AnyVector* CheckContext::vertex(int number) {
   const auto found = vertices.find(number);
   if (found != vertices.end()) return &found->second;
@@ -208,14 +170,31 @@ bool CheckContext::check_direction(const AnyVector& d) {
 }
 
 bool CheckContext::of_few_digits(const AnyVector& given, const AnyVector& right, const std::string& what) {
-  if (!inferred || !given.allFinite() || (given - right).norm() > 1e-5 * right.norm()) return false;
+  if (!inferred || !given.allFinite()) return false;
+  const double off = (given - right).norm();
+  // What single precision leaves of a nearest point: as far away as it should be, and beside it by the root of that.
+  const double limit = std::max(1e-5 * right.norm(), 1e-6 * size), beside = std::sqrt(2e-6 * size * (right.norm() + 1e-6 * size));
+  bool seven = off <= 1e-5 * right.norm(), single = off <= std::max(limit, beside) && std::abs(given.norm() - right.norm()) <= limit;
   for (const double x : given) {
     char text[32];
     std::snprintf(text, sizeof text, "%.7g", x);
-    if (std::strtod(text, nullptr) != x) return false;
+    seven = seven && std::strtod(text, nullptr) == x;
+    single = single && static_cast<double>(static_cast<float>(x)) == x;
   }
-  find("few-digits", what + " is off by " + text_of((given - right).norm()) + ", and has no more than seven digits: print all seventeen (%.17g), or run with --scalar float, which asks for no more.", Finding::Severity::warning);
+  if (!seven && !single) return false;
+  find("few-digits", what + " is off by " + text_of(off) + (seven ? ", and has no more than seven digits: print all seventeen (%.17g), or run with --scalar float, which asks for no more."
+                                                                  : ", and its numbers are those of single precision: run with --scalar float, which asks for no more; else what follows of it is told as errors."),
+       Finding::Severity::warning);
   return true;
+}
+
+std::string CheckContext::lost_far_out(const std::vector<int>& numbers, double off) const {
+  double far = 0;
+  for (const Event& event : recording.events)
+    if (const auto given = given_vertex(event); given && contains(numbers, given->vertex)) far = std::max({far, given->a.stableNorm(), given->b.stableNorm()});
+  if (far <= 10 * size || off > 4 * std::numeric_limits<float>::epsilon() * far) return "";
+  return " The points of the bodies are " + text_of(far) + " from the world's origin, where single precision tells lengths of " + text_of(std::numeric_limits<float>::epsilon() * far) +
+         " apart and no less: a - b has lost the rest. Count in double precision, or in the frame of one body, before a and b are rounded.";
 }
 
 namespace {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "recordings/check.h"
+#include "recordings/check_text.h"
 #include "shapes/world_support.h"
 
 namespace gjkdbg {
@@ -21,11 +22,6 @@ struct NearestPoint {
 };
 NearestPoint nearest_point(const std::vector<AnyVector>& points);
 
-std::string text_of(double x);
-/// A bound; one that is not known says so.
-std::string bound_text(double x);
-std::string text_of(const AnyVector& v);
-std::string list_of(const std::vector<int>& numbers);
 bool contains(const std::vector<int>& list, int x);
 
 class CheckContext {
@@ -72,6 +68,14 @@ class CheckContext {
   /// What is harmless by itself, but the likely cause where an answer is wrong later on. The first counts; where the claim of an overlap is wrong, only one of
   /// the simplex that it is made of.
   void suspect(const char* code, const std::string& message);
+  /// What explains a wrong answer where nothing better does.
+  void doubt(const char* code, const std::string& message) { if (!doubt_) doubt_ = Finding{step, Finding::Severity::error, code, message}; }
+  /// EPA's face is not on the boundary, though the depth is right: what else is wrong at the end comes of that.
+  void short_of_boundary(const std::string& message) { short_ = Finding{step, Finding::Severity::error, "stopped-early", message}; }
+  /// Nothing of the simplex was kept. Once, a search may begin anew; over and over, that is the cause of what goes wrong.
+  void reset(const std::string& message);
+  /// The finding of this code says itself what it comes of.
+  void explained(const char* code) { explained_.insert(code); }
   /// Whether there is a finding of this code so far.
   bool found(const char* code) const { return seen_.contains(code); }
   std::vector<Finding> take();
@@ -81,10 +85,17 @@ class CheckContext {
   bool check_direction(const AnyVector& d);
   /// Of a vector off by no more than its own digits: that it was printed with six of them. False for others.
   bool of_few_digits(const AnyVector& given, const AnyVector& right, const std::string& what);
+  /// Where a vector is off by no more than single precision leaves of the vertices' places in the world: a sentence that says so.
+  std::string lost_far_out(const std::vector<int>& numbers, double off) const;
+
+  /// Ends the warning of a direction that is off in a run that is right.
+  static constexpr std::string_view harmless = " Where all else is right this costs iterations, not the answer.";
 
  private:
   std::optional<std::size_t> last_simplex() const;
   void put_causes_first();
+  std::optional<Finding> cause_of(const Finding& root) const;
+  void tell_what_to_report(Finding& root) const;
 
   std::optional<WorldSupport> a_, b_;
   std::vector<std::pair<WorldSupport, WorldSupport>> nearest_;  ///< of meshes: the parts as near as the bodies
@@ -92,12 +103,15 @@ class CheckContext {
   bool told_cores_ = true;  ///< what `cores` is outside MPR
   std::optional<Result> reference_;
   std::vector<Finding> findings_;
-  std::set<std::string> seen_;
-  std::optional<Finding> suspicion_, last_suspicion_;
+  std::set<std::string> seen_, explained_;
+  std::optional<Finding> suspicion_, last_suspicion_, doubt_, short_, reset_;
+  int resets_ = 0;
 };
 
 /// How far a point lies outside a body, surely.
 double outside(const Scene& scene, std::size_t body, const AnyVector& point);
+/// What witnesses that are wrong are instead, a sentence; empty where that is not known.
+std::string mistaken_witnesses(CheckContext& context, double slack);
 
 /// What holds for every event: phases end once, numbers are given out once, supports are supports, bounds hold the answer.
 class TraceCheck {
@@ -186,12 +200,17 @@ class GjkCheck {
   bool begins_again(const recorded::SimplexReduced& e);
   void note_unkept(double v, const std::vector<int>& all);
   void check_returned(double v);
+  std::string stopping_test(double v, const std::string& nearer) const;
+  std::string not_enclosed(const std::vector<int>& simplex, double v);
+  bool first_negated(const AnyVector& direction) const;
+  std::string advice_for_cycle(std::size_t period) const;
   bool heuristic_region(const std::vector<int>& before, const std::vector<int>& region, const AnyVector& v);
 
   CheckContext& c_;
   std::vector<int> simplex_, pending_;  ///< kept, and queried since
   bool reported_ = false;               ///< whether any simplex was
-  AnyVector last_direction_;
+  AnyVector first_direction_, last_direction_;
+  int queries_ = 0;
   int stuck_ = 0;  ///< how often the search went on although nothing had changed
   double best_plane_ = -1e300;
   std::map<std::string, std::size_t> regions_;
@@ -229,7 +248,8 @@ class EpaCheck {
   void tell_no_gain();
   void check_removed(const recorded::PolytopeGrown& e, const std::map<int, Face>& before);
   void check_kept(int newest);
-  bool check_closed();
+  bool check_closed(const std::map<int, Face>& before);
+  std::string winding_of(const std::map<int, Face>& faces) const;
   void check_convex(const std::vector<recorded::Face>& added, std::optional<int> newest);
   void check_origin();
   std::vector<std::pair<int, const AnyVector*>> used() const;

@@ -125,7 +125,7 @@ void EpaCheck::check_plane(int number, const AnyVector& normal, double distance)
     const bool by_its_length = std::abs(length - 1) > 1e-4 && std::abs(normal.dot(*w) - distance) <= rounding * length;
     c_.find("wrong-face", "The plane of " + name(number) + " is given by the normal " + text_of(normal) + " and the distance " + text_of(distance) + ", but its vertex " + std::to_string(v) + " lies at " + text_of(n.dot(*w)) +
                               " along it. Expected are the normal " + text_of(faces_[number].normal) + " and the distance " + text_of(faces_[number].distance) + "." +
-                              (by_its_length ? " The distance is measured with a normal of length " + text_of(length) + ": divide the normal by its length first, or faces of larger area look farther away." : ""));
+                              (by_its_length ? by_length(length) : ""));
     return;
   }
 }
@@ -163,7 +163,7 @@ void EpaCheck::operator()(const recorded::PolytopeSeeded& e) {
   for (const int v : e.vertices) c_.vertex(v);
   for (const auto& f : e.faces) add(f);
   orient(e.faces);
-  check_closed();
+  check_closed({});
   vertices_.clear();
   check_convex(e.faces, std::nullopt);
   check_origin();
@@ -179,7 +179,7 @@ void EpaCheck::operator()(const recorded::PolytopeGrown& e) {
   for (const auto& f : e.added) add(f);
   orient(e.added);
   check_kept(e.vertex);
-  if (check_closed()) check_removed(e, before);  // a face that is lost leaves a hole
+  if (check_closed(before)) check_removed(e, before);  // a face that is lost leaves a hole
   check_convex(e.added, e.vertex);
   check_origin();
 }
@@ -206,8 +206,15 @@ void EpaCheck::check_removed(const recorded::PolytopeGrown& e, const std::map<in
   }
 }
 
+/// How the faces were wound before the polytope came open.
+std::string EpaCheck::winding_of(const std::map<int, Face>& faces) const {
+  std::vector<std::vector<int>> vertices;
+  for (const auto& [number, face] : faces) vertices.push_back(face.vertices);
+  return c_.dimension == 3 ? winding_hint(vertices) : "";
+}
+
 /// Every edge joins exactly two faces (2D: every vertex two edges; 1D: two ends).
-bool EpaCheck::check_closed() {
+bool EpaCheck::check_closed(const std::map<int, Face>& before) {
   std::map<std::array<int, 2>, int> uses;
   if (c_.dimension == 1 && faces_.size() != 2) {
     c_.find("open-polytope", "In 1D a polytope is an interval: it has " + std::to_string(faces_.size()) + (faces_.size() == 1 ? " end" : " ends") + " instead of 2.");
@@ -224,7 +231,7 @@ bool EpaCheck::check_closed() {
   for (const auto& [edge, count] : uses)
     if (count != 2) {
       c_.find("open-polytope", (c_.dimension == 3 ? "The edge " + std::to_string(edge[0]) + "-" + std::to_string(edge[1]) : "The vertex " + std::to_string(edge[0])) + " belongs to " + std::to_string(count) +
-                                   (c_.dimension == 3 ? " faces" : " edges") + " instead of 2: the polytope is not closed. The usual cause is a horizon that was collected with shared edges left in, or with one lost.");
+                                   (c_.dimension == 3 ? " faces" : " edges") + " instead of 2: the polytope is not closed. The usual cause is a horizon that was collected with shared edges left in, or with one lost." + (count > 2 ? winding_of(before) : ""));
       return false;
     }
   return true;
@@ -332,9 +339,10 @@ void EpaCheck::operator()(const recorded::EpaEnded& e) {
   if (c_.inferred && r.signed_distance && !within && !is_it)
     c_.find("wrong-depth", "The depth is given as " + text_of(e.depth) + ", but the face chosen last, " + name(found->first) + ", lies " + text_of(face.distance) + " from the origin, and A - B reaches " + text_of(height) +
                                " along its normal: the depth is between these. What is returned is not what was found.");
-  if (!right && height - face.distance > c_.stop * std::max(height, c_.size))
-    c_.find("stopped-early", "EPA ended at " + name(found->first) + ", " + text_of(face.distance) + " from the origin, but A - B reaches " + text_of(height) + " along its normal: the face is not on the boundary. The usual cause is a tolerance that is too coarse, or a "
-                             "limit on iterations taken for convergence.");
+  if (height - face.distance <= c_.stop * std::max(height, c_.size)) return;
+  const std::string message = "EPA ended at " + name(found->first) + ", " + text_of(face.distance) + " from the origin, but A - B reaches " + text_of(height) + " along its normal: the face is not on the boundary. The usual cause is a tolerance that is too coarse, or a "
+                              "limit on iterations taken for convergence.";
+  right ? c_.short_of_boundary(message) : c_.find("stopped-early", message);
 }
 
 }  // namespace gjkdbg

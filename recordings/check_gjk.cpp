@@ -71,12 +71,13 @@ void GjkCheck::check_towards_origin(const AnyVector& direction) {
   const double toward = -d.dot(v) / v.norm();
   if (toward < -1e-9 && nearest_corner.dot(d) > 0 && goes_on_to_epa()) {
     c_.find("origin-not-enclosed", "From here on the simplex " + list_of(simplex_) + " is taken to hold the origin: the direction " + text_of(direction) + " leads away from it, as EPA's do, and no simplex follows. But the origin lies " + text_of(v.norm()) +
-                                       " outside, at -v for v = " + text_of(v) + ". The usual cause is a tolerance for touching that is too coarse, or a test against a face whose normal points the wrong way.");
+                                       " outside, at -v for v = " + text_of(v) + "." + not_enclosed(simplex_, v.norm()));
     return;
   }
   if (toward < -1e-9 && nearest_corner.dot(d) > 0) {
-    c_.find("direction-away-from-origin", "The direction " + text_of(direction) + " leads away from the origin: the simplex's nearest point is v = " + text_of(v) + " and d . (-v) is negative (cosine " + text_of(toward) +
-                                              "). Expected is -v or a multiple. The usual cause is a flipped cross product or a missing minus sign.");
+    const std::string message = "The direction " + text_of(direction) + " leads away from the origin: the simplex's nearest point is v = " + text_of(v) + " and d . (-v) is negative (cosine " + text_of(toward) + "). Expected is -v or a multiple. ";
+    if (first_negated(direction)) return c_.doubt("direction-away-from-origin", message + "It is the first direction, negated, which some searches ask for second whatever the first support is. But d . w < 0 for the first support, along the first direction, proves the bodies apart already: test it.");
+    c_.find("direction-away-from-origin", message + "The usual cause is a flipped cross product or a missing minus sign.");
     return;
   }
   double worst = 0;
@@ -89,8 +90,13 @@ void GjkCheck::check_towards_origin(const AnyVector& direction) {
   const double rounding = single ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon();
   if (worst > std::max(single ? 1e-2 : 1e-4, 64 * rounding * c_.size / v.norm()))
     c_.find("direction-not-perpendicular", "The direction " + text_of(direction) + " is not perpendicular to the feature that was kept (cosine with an edge " + text_of(worst) + "), though it leads towards the origin. Expected is " +
-                                               text_of(AnyVector(-v)) + " or a multiple. Where all else is right this costs iterations, not the answer.",
+                                               text_of(AnyVector(-v)) + " or a multiple." + std::string(CheckContext::harmless),
             Finding::Severity::warning);
+}
+
+/// Some searches, dyn4j's among them, ask the first direction and then the other way, whatever the first point is.
+bool GjkCheck::first_negated(const AnyVector& direction) const {
+  return queries_ == 1 && simplex_.size() == 1 && first_direction_.size() > 0 && (direction + first_direction_).stableNorm() <= 1e-12 * direction.stableNorm();
 }
 
 /// A query that leaves the simplex as it was is the end, unless the nearest point was put more exactly and the direction has turned. Jolt's rule
@@ -110,7 +116,18 @@ void GjkCheck::check_progress(const recorded::SupportQueried& e) {
 void GjkCheck::check_repetition(const AnyVector& direction) {
   if (const auto found = directions_.add(direction, c_.step))
     c_.find("cycle", "The direction " + text_of(direction) + (found->period == 1 ? " is" : ", and the " + std::to_string(found->period - 1) + " before it, are") + " searched for the fourth time running, as from step " +
-                         std::to_string(found->first_step) + " on: the same supports come back, and the search will never end. Stop when a support is no farther along d than the simplex.");
+                         std::to_string(found->first_step) + " on: the same supports come back, and the search will never end. " + advice_for_cycle(found->period));
+}
+
+/// Supports that each lie beyond the one before were no reason to stop.
+std::string GjkCheck::advice_for_cycle(std::size_t period) const {
+  std::vector<const recorded::SupportQueried*> last;  // newest first
+  for (std::size_t i = c_.step + 1; i-- > 0 && last.size() <= period;)
+    if (const auto* q = std::get_if<recorded::SupportQueried>(&c_.recording.events[i])) last.push_back(q);
+  bool beyond = period > 1 && last.size() == period + 1;
+  for (std::size_t i = 0; beyond && i < period; ++i) beyond = last[i]->direction.stableNormalized().dot(last[i]->w - last[i + 1]->w) > c_.tolerance;
+  return beyond ? "Each of them lies farther along its direction than the one before, so no stopping test would have been right to end it: |v| must fall in every step. The usual cause is a region test that drops a vertex the nearest part needs, or a simplex that is cleared."
+                : "Stop when a support is no farther along d than the simplex.";
 }
 
 void GjkCheck::operator()(const recorded::SupportQueried& e) {
@@ -122,8 +139,11 @@ void GjkCheck::operator()(const recorded::SupportQueried& e) {
   if (c_.recording.settings.name != MethodName::gjk_accelerated) {
     if (reported_ && pending_.empty()) check_towards_origin(e.direction);
     check_progress(e);
+  } else {
+    last_direction_ = e.direction;
   }
   check_repetition(e.direction);
+  if (queries_++ == 0) first_direction_ = e.direction;
   best_plane_ = std::max(best_plane_, -e.direction.stableNormalized().dot(e.w));
   pending_.insert(pending_.begin(), e.vertex);
 }
@@ -221,7 +241,11 @@ void GjkCheck::check_closest(const recorded::SimplexReduced& e) {
   if (off <= std::max(limit, std::sqrt(2 * limit * (nearest + limit))) && std::abs(farther) <= limit) return;
   if (c_.of_few_digits(e.closest, right, "The nearest point of " + list_of(e.region))) return;
   const std::string given = "The nearest point of " + list_of(e.region) + " is given as " + text_of(e.closest) + ", " + text_of(e.closest.norm()) + " from the origin; it is " + text_of(right) + ", at " + text_of(nearest) + ".";
-  if ((e.closest + right).norm() <= limit) c_.find("wrong-closest", given + " That is the same point with its sign turned: is your w = b - a, or did you give the next direction?");
+  if (c_.found("wrong-closest")) return;
+  const std::string lost = c_.lost_far_out(e.region, off);
+  if (!lost.empty()) c_.find("wrong-closest", given + lost);
+  else if (w.size() == 1 && (e.closest + right).norm() > limit) c_.find("wrong-closest", given + " One vertex has no weights: its nearest point is w itself. The usual cause is the point of an older simplex, or of other coordinates than the support's.");
+  else if ((e.closest + right).norm() <= limit) c_.find("wrong-closest", given + " That is the same point with its sign turned: is your w = b - a, or did you give the next direction?");
   else if (farther < -limit) c_.find("wrong-closest", given + " What is nearer lies outside the simplex. The usual cause is weights that are not clamped, or a vertex or edge region that is not tested for.");
   else c_.find("wrong-closest", given + " The usual cause is weights that belong to other vertices.");
 }
@@ -257,8 +281,7 @@ bool GjkCheck::begins_again(const recorded::SimplexReduced& e) {
   if (kept.size() != e.region.size() || all.empty() || all.size() > 6) return false;
   const double best = nearest_point(all).v.norm(), now = nearest_point(kept).v.norm();
   if (now <= best + c_.tolerance) return false;
-  c_.suspect("wrong-region", "Of the simplex before, " + list_of(simplex_) + ", nothing was kept: " + list_of(e.region) + " is " + text_of(now) + " from the origin, " + list_of(hand) + " comes as near as " + text_of(best) +
-                                 ". The search is taken to begin again. Where it does not, the usual cause is a simplex that is cleared, or a region test with a flipped sign.");
+  c_.reset("Of the simplex before, " + list_of(simplex_) + ", nothing was kept: " + list_of(e.region) + " is " + text_of(now) + " from the origin, " + list_of(hand) + " comes as near as " + text_of(best) + ".");
   simplex_.clear(), pending_.clear(), directions_.forget(), regions_.clear(), last_region_.clear(), last_direction_ = AnyVector();
   repeated_from_.reset(), repeated_at_.reset(), stuck_ = 0;  // the planes have proven what they have
   return true;
@@ -290,60 +313,6 @@ void GjkCheck::operator()(const recorded::SimplexReduced& e) {
   reported_ = true;
   simplex_ = e.region;
   pending_.clear();
-}
-
-/// What was asked for since the last simplex, and with it comes nearer.
-void GjkCheck::note_unkept(double v, const std::vector<int>& all) {
-  if (pending_.empty() || all.size() > 6) return;
-  const NearestPoint best = nearest_point(points(all));
-  if (best.v.norm() >= v - std::max(c_.tolerance, 1e-7 * c_.size)) return;
-  std::vector<int> right;
-  for (const int i : best.subset) right.push_back(all[static_cast<std::size_t>(i)]);
-  c_.unkept = "Of " + list_of(pending_) + ", asked for since, nothing was kept, though the part " + list_of(right) + " comes as near as " + text_of(best.v.norm()) +
-              ": look at how the simplex was reduced after that (and report it, too, if you give it up).";
-}
-
-/// A distance between what the supports have proven and what the simplex comes to. What is there may be off, where bounds meet slowly, but not what is returned of it.
-void GjkCheck::check_returned(double v) {
-  const Result& r = c_.recording.result;
-  if (!c_.inferred || !c_.has_supports || !r.signed_distance || r.intersecting) return;
-  const double slack = std::max(c_.tolerance, 1e-7 * c_.size), given = *r.signed_distance;
-  if (given >= best_plane_ - c_.radius - slack && given <= v - c_.radius + slack) return;
-  const Result& right = c_.reference();
-  if (std::abs(given - *right.signed_distance) <= 10 * slack + *right.upper_bound - *right.lower_bound) return;
-  c_.find("wrong-distance", "signed_distance is " + text_of(given) + ", but the simplex kept last, " + list_of(simplex_) + ", comes to " + text_of(v - c_.radius) + ", and a support plane leaves " + text_of(best_plane_ - c_.radius) +
-                                " between the bodies: the distance is between these. What is returned is not what was found.");
-}
-
-void GjkCheck::operator()(const recorded::GjkEnded& e) {
-  std::vector<int> last = simplex_;
-  if (reported_ && (e.status == GjkStatus::separated || e.status == GjkStatus::converged))
-    if (const std::vector<AnyVector> w = points(last); !w.empty()) {
-      std::vector<int> all = pending_;
-      all.insert(all.end(), last.begin(), last.end());
-      const double v = nearest_point(w).v.norm();
-      note_unkept(v, all);
-      if (e.status == GjkStatus::converged) check_returned(v);
-      c_.last_is_nearest = c_.has_supports && c_.inferred && std::abs(v - c_.radius - *c_.reference().signed_distance) <= c_.answer_tolerance();
-    }
-  if (!reported_ || (e.status != GjkStatus::enclosed && e.status != GjkStatus::touching && e.status != GjkStatus::converged)) return;
-  const std::vector<AnyVector> w = points(last);
-  if (w.empty()) return;
-  const double v = nearest_point(w).v.norm(), limit = std::max(c_.tolerance, 1e-7 * c_.size);
-  // The vertices that came after the last reported simplex may have closed it.
-  std::vector<int> all = pending_;
-  all.insert(all.end(), last.begin(), last.end());
-  if (e.status == GjkStatus::converged) {
-    const double gap = v - best_plane_;
-    const double claimed = v - c_.radius;
-    if (v <= limit || !c_.has_supports || gap <= c_.stop * std::max(v, c_.size) || std::abs(claimed - *c_.reference().signed_distance) <= c_.answer_tolerance()) return;
-    std::string cause = "The usual cause is a tolerance compared with a squared length, or with a length that was not normalised, or a limit on iterations taken for convergence.";
-    if (!c_.unkept.empty()) cause = c_.unkept;
-    c_.find("stopped-early", "GJK ended with its bounds " + text_of(best_plane_ - c_.radius) + " and " + text_of(v - c_.radius) + " of the distance still " + text_of(gap) + " apart: there is a nearer point. " + cause);
-  } else if (v > limit) {
-    if (nearest_point(points(all)).v.norm() > limit)
-      c_.find("origin-not-enclosed", "Overlap is claimed from the simplex " + list_of(last) + ", but the origin lies " + text_of(v) + " outside it. The usual cause is a test against a face whose normal points the wrong way.");
-  }
 }
 
 }  // namespace gjkdbg

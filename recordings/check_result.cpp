@@ -49,7 +49,10 @@ struct Judge {
       if (std::abs(*r.signed_distance - *right.signed_distance) <= limit) return;  // the depth was not asked for, but is no error
       return c.find("wrong-distance", "signed_distance is " + text_of(*r.signed_distance) + ", but the bodies overlap: a distance query's answer is 0.");
     }
-    c.find(sd > 0 ? "wrong-distance" : "wrong-depth", "signed_distance is " + text_of(*r.signed_distance) + ", expected " + text_of(sd) + " (certified between " + text_of(*right.lower_bound) + " and " + text_of(*right.upper_bound) + ")." + distance_hint(*r.signed_distance, sd));
+    const std::string hint = distance_hint(*r.signed_distance, sd);
+    const char* code = sd > 0 ? "wrong-distance" : "wrong-depth";
+    if (!hint.empty()) c.explained(code);
+    c.find(code, "signed_distance is " + text_of(*r.signed_distance) + ", expected " + text_of(sd) + " (certified between " + text_of(*right.lower_bound) + " and " + text_of(*right.upper_bound) + ")." + hint);
   }
 
   std::string distance_hint(double given, double sd) const {
@@ -88,6 +91,7 @@ struct Judge {
     if (c.recording.scene.scene.query == Query::distance && sd <= 0) return;
     if (std::abs(n.norm() - 1) > 1e-3) {
       c.find("wrong-normal", "The normal " + text_of(n) + " has length " + text_of(n.norm()) + " instead of 1.");
+      c.explained("wrong-normal");
       return;
     }
     if (!c.has_supports && limited) return;  // it may be of a triangle that is not the nearest
@@ -117,7 +121,7 @@ struct Judge {
       c.find("wrong-witness", std::string("witness_") + (a ? "a " : "b ") + text_of(a ? *r.witness_a : *r.witness_b) + " lies " + text_of(a ? out_a : out_b) + " outside its body. " +
                                    (portal ? "MPR's depth is more than the right one: a way out all the same, but no points of both bodies lie that far apart along its normal."
                                    : swapped ? "Each lies on the other body: they are swapped."
-                                           : "The usual cause is weights that belong to other vertices, or to the wrong face."));
+                                             : mistaken("The usual cause is weights that belong to other vertices, or to the wrong face.")));
       return;
     }
     if (c.found("wrong-distance") || c.found("wrong-depth") || c.found("flipped-normal") || c.found("wrong-normal")) return;  // the points may well be right
@@ -127,7 +131,8 @@ struct Judge {
     if (belong_together(*r.witness_b, *r.witness_a))  // of bodies that overlap each may lie on either
       c.find("wrong-witness", "witness_b - witness_a is " + text_of(AnyVector(*r.witness_b - *r.witness_a)) + ", but signed_distance * normal is " + text_of(AnyVector(*r.signed_distance * *r.normal)) + ", which is witness_a - witness_b: they are swapped.");
     else
-      c.find("wrong-witness", "witness_b - witness_a is " + text_of(AnyVector(*r.witness_b - *r.witness_a)) + ", but signed_distance * normal is " + text_of(AnyVector(*r.signed_distance * *r.normal)) + ": the points and the distance do not belong together. The usual cause is weights of another part than the nearest: of a simplex that was not reduced to it, or of a face whose plane is the nearest while the point lies on a neighbour in the same plane.");
+      c.find("wrong-witness", "witness_b - witness_a is " + text_of(AnyVector(*r.witness_b - *r.witness_a)) + ", but signed_distance * normal is " + text_of(AnyVector(*r.signed_distance * *r.normal)) + ": the points and the distance do not belong together. " +
+                                   mistaken("The usual cause is weights of another part than the nearest: of a simplex that was not reduced to it, or of a face whose plane is the nearest while the point lies on a neighbour in the same plane."));
   }
 
   /// A witness without the other: as far from the other body as the bodies are apart.
@@ -144,7 +149,14 @@ struct Judge {
     const bool common = c.recording.scene.scene.query == Query::distance && r.intersecting;
     const double said = std::abs(r.signed_distance.value_or(common ? 0 : *right.signed_distance)), off = std::abs(between.norm() - said);
     if (off <= 10 * c.answer_tolerance() || (common && std::abs(between.norm() - std::abs(*right.signed_distance)) <= 10 * c.answer_tolerance())) return;
-    c.find("wrong-witness", "The witness points are " + text_of(between.norm()) + " from each other, " + (common && said == 0 ? "but the bodies overlap: where only the distance is asked for, they are one point of both." : "but the bodies are " + text_of(said) + (*right.signed_distance > 0 ? " apart." : " deep.")));
+    c.find("wrong-witness", "The witness points are " + text_of(between.norm()) + " from each other, " + (common && said == 0 ? "but the bodies overlap: where only the distance is asked for, they are one point of both." : "but the bodies are " + text_of(said) + (*right.signed_distance > 0 ? " apart." : " deep.")) + mistaken("", " "));
+  }
+
+  /// What the witnesses are instead, where that can be told; else the usual cause.
+  std::string mistaken(const std::string& usual, const std::string& before = "") const {
+    const std::string known = mistaken_witnesses(c, 10 * limit + rounding());
+    if (!known.empty()) c.explained("wrong-witness");
+    return known.empty() ? usual : before + known;
   }
 
   /// Points of the bodies as far behind one another as is said, and no farther than the bodies are deep.

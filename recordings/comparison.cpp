@@ -19,7 +19,27 @@ std::string text_of(const Event& event) {
 std::string text_of(const Result& result, Query query) {
   std::string text;
   append_result(text, result, query);
-  return text;
+  // What the query does not ask for is not written, and yet may be told by a file.
+  text.pop_back();
+  const auto beyond = [&](std::string_view name, const auto& field, const auto& append) {
+    if (!field || text.find('"' + std::string(name) + "\":") != std::string::npos) return;
+    text += ",\"" + std::string(name) + "\":";
+    append(*field);
+  };
+  const auto number = [&](double x) { append_number(text, x); };
+  const auto vector = [&](const AnyVector& v) { append_vector(text, v); };
+  beyond("signed_distance", result.signed_distance, number);
+  beyond("normal", result.normal, vector);
+  beyond("witness_a", result.witness_a, vector);
+  beyond("witness_b", result.witness_b, vector);
+  beyond("lower_bound", result.lower_bound, number);
+  beyond("upper_bound", result.upper_bound, number);
+  beyond("time", result.time, number);
+  beyond("touching_at", result.touching_at, number);
+  beyond("energy", result.energy, number);
+  beyond("pair", result.pair, [&](const std::array<int, 2>& pair) { text += '[' + std::to_string(pair[0]) + ',' + std::to_string(pair[1]) + ']'; });
+  beyond("bodies", result.bodies, [&](const std::vector<FinalState>& bodies) { text += std::to_string(bodies.size()); });
+  return text + '}';
 }
 
 /// Numbers may differ by 1e-4 of the greatest of them and `size`.

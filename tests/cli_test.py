@@ -71,12 +71,14 @@ class Program(unittest.TestCase):
 
     def test_dump_by_gallery_name(self):
         self.assertEqual(run("dump", "two-unit-cubes", cwd=self.path).returncode, 0)
+        self.assertEqual(run("dump", "three-unit-cubes", cwd=self.path).stderr, "gjkdbg: three-unit-cubes: is neither a file nor a scene of the gallery, which gjkdbg scenes lists\n")
 
     def test_flags_override_the_scene(self):
         method = json.loads(run("dump", self.scene, "--scalar", "float", "--tolerance", "1e-3", "--max_iterations", "7", "--penetration", "none",
                                 "--initial_direction", "0,1,0").stdout)["method"]
         self.assertEqual((method["scalar"], method["tolerance"], method["max_iterations"]), ("float", 1e-3, 7))
         self.assertEqual((method["penetration"], method["initial_direction"]), ("none", [0, 1, 0]))
+        self.assertEqual(run("dump", "--initial-direction=1,0,0", self.scene, "-o", self.path / "led.json").returncode, 0)
 
     def test_starts_where_another_run_ended(self):
         first = str(self.path / "first.recording.json")

@@ -12,9 +12,11 @@ import time
 import unittest
 
 from solver_bugs import BUGS, EDITS, FACES, LATER, SUPPORT, at
+from solver_causes import CAUSES, NEGATED, SINGLE
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 KIT = ROOT / "debugger/solver/kits/gjk.py"
+MURATORI = ROOT / "tests/muratori_solver.py"
 PROGRAM = os.path.abspath(sys.argv.pop(1))
 SOURCE = KIT.read_text()
 
@@ -196,6 +198,43 @@ class Solver(unittest.TestCase):
                 path.write_text(source)
                 with self.subTest(name):
                     self.expect(self.run_kit(scene, f"/usr/bin/python3 {path} 2>/dev/null", "--timeout", "1.5"), code, name)
+
+    def test_causes_are_named(self):
+        """Not the code alone: what the message says of the cause, and what it must not say."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "bug.py")
+            for name, which, scene, replacements, code, phrases, more in CAUSES:
+                source = SOURCE if which == "kit" else MURATORI.read_text()
+                for old, new in replacements:
+                    self.assertIn(old, source, name)
+                    source = source.replace(old, new, 1)
+                path.write_text(source)
+                with self.subTest(name):
+                    findings = self.run_kit(scene, f"/usr/bin/python3 {path}", *more)
+                    self.expect(findings, code, name)
+                    for phrase in phrases:
+                        if phrase.startswith("not "):
+                            self.assertNotIn(phrase[4:], findings[0]["message"])
+                        else:
+                            self.assertIn(phrase, findings[0]["message"])
+
+    def test_the_first_direction_negated_does_no_harm(self):
+        """As dyn4j searches. Where the first two points are the same, or the first is nearer than the edge, Muratori's form needs the other direction."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "negated.py")
+            path.write_text(MURATORI.read_text().replace(*NEGATED, 1))
+            self.clean_on_the_gallery(f"/usr/bin/python3 {path}", space_only=True, stride=2, without=("crossing-segments", "margin-boxes", "sat-needles"))
+
+    def test_single_precision_is_warned_of_once(self):
+        source = SOURCE
+        for old, new in SINGLE:
+            source = source.replace(old, new, 1)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "single.py")
+            path.write_text(source)
+            findings = self.run_kit("pair-sphere-sphere", f"/usr/bin/python3 {path}")
+            self.assertEqual([(f["code"], f["severity"]) for f in findings], [("few-digits", "warning")])
+            self.assertEqual(self.run_kit("pair-sphere-sphere", f"/usr/bin/python3 {path}", "--scalar", "float"), [])
 
     def test_what_is_said_without_a_support(self):
         """A right answer at once has no findings; vertices nobody gave out are named."""

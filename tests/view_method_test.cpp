@@ -336,6 +336,34 @@ TEST_F(Words, AndEveryNameDrawnHasAMeaning) {
   EXPECT_EQ(without, std::set<std::string>{});
 }
 
+/// Nothing lies under a label: the axes' numbers give way, and a label that found no room beside its dot has a line to it.
+TEST_F(Words, StandFree) {
+  int led = 0;
+  for (const char* scene : {"2d-deep", "2d-corner-to-corner", "cast-rotating-rod", "box-box-deep"}) {
+    app.open_gallery(scene);
+    const ViewRectangle view{0, 0, 360, 300};
+    const Projection projection(fit_world(session.meshes(), session.recording()), view);
+    for (std::size_t k = 0; k < session.count(); ++k) {
+      session.go_to(k);
+      const auto items = flatten(world_picture(session.meshes(), session.recording(), session.frame(), ViewSettings{}, dark_palette, projection), projection);
+      const auto is_mark = [](const FlatItem& item) { return item.small && item.text.find_first_not_of("-.0123456789") == std::string::npos; };
+      for (std::size_t i = 0; i < items.size(); ++i) {
+        if (items[i].kind != FlatItem::Kind::label || is_mark(items[i])) continue;
+        const Projected& at = items[i].points[0];
+        const double w = 7 * static_cast<double>(items[i].text.size()), h = 17;
+        for (const FlatItem& mark : items)
+          if (mark.kind == FlatItem::Kind::label && is_mark(mark)) {
+            const Projected& m = mark.points[0];
+            EXPECT_FALSE(m.x < at.x + w && at.x < m.x + 6 * static_cast<double>(mark.text.size()) && m.y < at.y + h && at.y < m.y + 11) << scene << " " << k << ": " << items[i].text << " over " << mark.text;
+          }
+        led += i > 0 && items[i - 1].kind == FlatItem::Kind::line && items[i - 1].width == 1 && !items[i].small;
+      }
+    }
+  }
+  EXPECT_GT(led, 0);
+  EXPECT_EQ(body_letter(25) + " " + body_letter(26), "Z 26");
+}
+
 TEST_F(Words, AndTheArrowsTheyNameAreInView) {
   for (const char* scene : {"2d-squares-apart", "2d-deep", "box-box-apart", "box-box-deep"}) {
     app.open_gallery(scene);

@@ -46,6 +46,33 @@ TEST_F(OpenRun, OfAnotherProgramComesBackWithUndo) {
   EXPECT_EQ(session.scene().scene.bodies[1].pose.position[0], next.scene.bodies[1].pose.position[0]);
 }
 
+TEST_F(OpenRun, BeginsAtItsFirstFinding) {
+  const auto file = std::filesystem::temp_directory_path() / ("finding-" + std::to_string(getpid()) + ".recording.json");
+  Recording wrong = solvers_run();
+  wrong.result.signed_distance = record(wrong.scene).result.signed_distance;
+  std::get<recorded::SupportQueried>(wrong.events[5]).w[0] += 0.5;
+  std::ofstream(file) << recording_to_text(wrong);
+  app.open(file);
+  std::filesystem::remove(file);
+  EXPECT_EQ(app.message, "");
+  EXPECT_EQ(session.step(), 5u);
+  EXPECT_NE(app.notice.find("first finding"), std::string::npos);
+  app.open_gallery("box-box-deep");
+  EXPECT_EQ(session.step(), 0u);
+}
+
+TEST_F(OpenRun, SaysWhyPlayingStoppedAndThatBookmarksAreTaken) {
+  app.stop_when_text = "kind == polytope_seeded";
+  session.stop_when = Condition(app.stop_when_text);
+  session.speed = 8, session.toggle_play();
+  for (int i = 0; i < 200 && session.playing; ++i) host.frame();
+  EXPECT_TRUE(std::holds_alternative<recorded::PolytopeSeeded>(session.recording().events[session.step()]));
+  EXPECT_EQ(app.notice, "stopped: kind == polytope_seeded");
+  for (int i = 0; i < 9; ++i) EXPECT_TRUE(session.add_bookmark());
+  host.press(Key::m);
+  EXPECT_EQ(app.notice, "all nine bookmarks are taken");
+}
+
 TEST_F(OpenRun, IsAtTheStepItWasAtAfterUndo) {
   session.go_to(15);
   SceneFile next = session.scene();

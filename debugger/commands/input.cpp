@@ -40,7 +40,9 @@ fs::path scene_path(const std::string& argument) {
   std::error_code ignored;
   if (fs::exists(argument, ignored) || argument.find('/') != std::string::npos) return argument;
   const fs::path in_gallery = gallery_directory() / (argument + ".scene.json");
-  return fs::exists(in_gallery, ignored) ? in_gallery : fs::path(argument);
+  if (fs::exists(in_gallery, ignored)) return in_gallery;
+  if (argument.find('.') == std::string::npos) throw Error("missing-file", "is neither a file nor a scene of the gallery, which gjkdbg scenes lists", argument);
+  return argument;
 }
 
 std::string one_line(std::string text) {
@@ -93,7 +95,7 @@ void MethodFlags::add_to(CLI::App& app) {
   app.add_option("--start_from,--start-from", start_from_, "recording whose last simplex to begin with")->check(named())->group(group);
   app.add_option("--tolerance", tolerance_, "relative gap of the bounds at which to stop; greater than 0 and less than 1")->check(between(0, 1))->group(group);
   app.add_option("--max_iterations,--max-iterations", max_iterations_, "of each phase")->check(between(1, 1000000))->group(group);
-  app.add_option("--initial_direction,--initial-direction", initial_direction_, "first search direction, e.g. 1,0,0")->delimiter(',')->group(group);
+  app.add_option("--initial_direction,--initial-direction", initial_direction_, "first search direction, e.g. 1,0,0")->delimiter(',')->allow_extra_args(false)->group(group);  // or a scene's name after it is taken for a number
 }
 
 void MethodFlags::override_in(Method& method) const {

@@ -232,14 +232,16 @@ class DifferencePainter : public Painter {
   /// The surface of A - B is nowhere nearer than the one ring and somewhere no farther than the other.
   void bound_rings() {
     if (!settings_.bounds || meshes_.dimension == 1) return;
-    const auto ring_at = [&](double bound, Colour colour) {
+    const auto ring_at = [&](double bound, const char* name, Colour colour) {
       const double r = std::abs(bound + meshes_.radius);
       if (!std::isfinite(r) || !(r > 1e-3 * unit()) || r > 50 * unit()) return;
+      if (r > 0.15 * unit() && r < 0.8 * unit()) small_label((projection_.right() - projection_.up()) * (r * M_SQRT1_2), name, palette_.text_faint);
       if (flat()) ring(r, ViewPoint::UnitX(), ViewPoint::UnitY(), colour);
       else ring(r, projection_.right(), projection_.up(), colour);
     };
-    if (frame_.upper_bound) ring_at(*frame_.upper_bound, palette_.text_soft.with_alpha(0.5));
-    if (frame_.lower_bound && frame_.lower_bound != frame_.upper_bound) ring_at(*frame_.lower_bound, palette_.text_faint.with_alpha(0.4));
+    if (frame_.upper_bound) ring_at(*frame_.upper_bound, "at most", palette_.text_soft.with_alpha(0.5));
+    const bool meet = frame_.lower_bound && frame_.upper_bound && std::abs(*frame_.upper_bound - *frame_.lower_bound) < 0.02 * unit();
+    if (frame_.lower_bound && frame_.lower_bound != frame_.upper_bound) ring_at(*frame_.lower_bound, meet ? "" : "at least", palette_.text_faint.with_alpha(0.4));
   }
 
   void simplex() {

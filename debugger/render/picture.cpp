@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <limits>
+#include <optional>
 
 namespace gjkdbg {
 namespace {
@@ -40,6 +42,8 @@ double length_inside(const LabelBox& box, const Projected& p, const Projected& q
   const double dx = q.x - p.x, dy = q.y - p.y;
   return between(p.x, dx, box.x, box.x + box.w) && between(p.y, dy, box.y, box.y + box.h) ? (to - from) * std::hypot(dx, dy) : 0;
 }
+
+double distance(const LabelBox& box, const Projected& p) { return std::hypot(std::max({box.x - p.x, 0.0, p.x - box.x - box.w}), std::max({box.y - p.y, 0.0, p.y - box.y - box.h})); }
 
 /// Finds every label the place around its point, inside the view, where it hides least of other labels, points and strong lines; the first of equals.
 class LabelPlaces {
@@ -78,8 +82,6 @@ class LabelPlaces {
     return sum;
   }
 
-  static double distance(const LabelBox& box, const Projected& p) { return std::hypot(std::max({box.x - p.x, 0.0, p.x - box.x - box.w}), std::max({box.y - p.y, 0.0, p.y - box.y - box.h})); }
-
   /// What stands nearer to another point than to its own is taken for that one's; and far off for nobody's.
   double misleads(const LabelBox& box, const Projected& at) const {
     const double own = distance(box, at);
@@ -105,17 +107,54 @@ FlatItem flat_point(const PicturePoint& point, const Projection& project) {
   return item;
 }
 
-std::vector<FlatItem> placed_labels(const Picture& picture, const Projection& project, std::vector<FlatItem> drawn, double scale) {
+/// From a label to its dot, where it found no room beside that or another dot is nearer.
+std::optional<FlatItem> leader(const LabelBox& box, const Projected& at, const PictureLabel& label, const std::vector<FlatItem>& drawn, double scale) {
+  const double own = distance(box, at);
+  bool has_dot = false, nearer_dot = false;
+  for (const FlatItem& item : drawn) {
+    if (item.kind != FlatItem::Kind::point) continue;
+    const bool is_own = std::hypot(item.points[0].x - at.x, item.points[0].y - at.y) < 1;
+    has_dot |= is_own, nearer_dot |= !is_own && distance(box, item.points[0]) < own;
+  }
+  if (!has_dot || own < (nearer_dot ? 10 : 22) * scale) return std::nullopt;
+  const Projected near{std::clamp(at.x, box.x, box.x + box.w), std::clamp(at.y, box.y, box.y + box.h), at.depth};
+  FlatItem line;
+  line.kind = FlatItem::Kind::line;
+  line.points = {near, at};
+  line.colour = label.colour.with_alpha(0.7), line.width = 1;
+  return line;
+}
+
+std::vector<FlatItem> placed_labels(const Picture& picture, const Projection& project, std::vector<FlatItem> drawn, double scale, std::vector<LabelBox>& taken) {
   for (const PicturePoint& point : picture.kept_free) drawn.push_back(flat_point(point, project));
   LabelPlaces places(drawn, project.rectangle(), scale);
   std::vector<FlatItem> out;
   for (const PictureLabel& label : picture.labels) {
     const Projected at = project(label.at);
     const LabelBox box = places.take(at, label);
+    taken.push_back(box);
+    if (auto line = leader(box, at, label, drawn, scale)) out.push_back(std::move(*line));
     FlatItem item;
     item.kind = FlatItem::Kind::label;
     item.points = {{box.x, box.y, at.depth}};
     item.colour = label.colour, item.text = label.text, item.small = label.small;
+    out.push_back(std::move(item));
+  }
+  return out;
+}
+
+/// The axes' numbers, but where one would lie under a label or a body's ring.
+std::vector<FlatItem> scale_marks(const Picture& picture, const Projection& project, double scale, const std::vector<LabelBox>& taken) {
+  std::vector<FlatItem> out;
+  for (const PictureLabel& mark : picture.scale_marks) {
+    Projected at = project(mark.at);
+    at.x += scale * mark.dx, at.y += scale * mark.dy;
+    const LabelBox box{at.x, at.y, 6 * scale * static_cast<double>(mark.text.size()), 11 * scale};
+    if (std::any_of(taken.begin(), taken.end(), [&](const LabelBox& other) { return box.meets(other); })) continue;
+    FlatItem item;
+    item.kind = FlatItem::Kind::label;
+    item.points = {at};
+    item.text = mark.text, item.colour = mark.colour, item.small = true;
     out.push_back(std::move(item));
   }
   return out;
@@ -140,20 +179,19 @@ std::vector<FlatItem> flatten(const Picture& picture, const Projection& project,
     }
   std::stable_sort(sorted.begin(), sorted.end(), [](const auto& x, const auto& y) { return x.first < y.first; });
   std::vector<FlatItem> out;
-  for (const PictureLabel& mark : picture.scale_marks) {
-    FlatItem item;
-    item.kind = FlatItem::Kind::label;
-    item.points = {project(mark.at)};
-    item.points[0].x += scale * mark.dx, item.points[0].y += scale * mark.dy;
-    item.text = mark.text, item.colour = mark.colour, item.small = true;
-    out.push_back(std::move(item));
-  }
   for (auto& [depth, item] : sorted) out.push_back(std::move(item));
   for (const PictureLine& line : picture.lines)
     if (line.on_top) out.push_back(flat_line(line, project));
   for (const PicturePoint& point : picture.points) out.push_back(flat_point(point, project));
-  for (FlatItem& label : placed_labels(picture, project, out, scale)) out.push_back(std::move(label));
-  return out;
+  std::vector<LabelBox> taken;
+  std::vector<FlatItem> labels = placed_labels(picture, project, out, scale, taken);
+  for (const PicturePoint& point : picture.kept_free) {
+    const Projected p = project(point.at);
+    taken.push_back({p.x - scale * point.radius, p.y - scale * point.radius, 2 * scale * point.radius, 2 * scale * point.radius});
+  }
+  std::vector<FlatItem> all = scale_marks(picture, project, scale, taken);
+  for (auto* list : {&out, &labels}) std::move(list->begin(), list->end(), std::back_inserter(all));
+  return all;
 }
 
 namespace {

@@ -59,6 +59,14 @@ struct RegionPainter {
     picture.line(a, d, colour.with_alpha(0.4), 1, Stroke::dashed), picture.line(b, c, colour.with_alpha(0.4), 1, Stroke::dashed);
   }
 
+  /// The plane through p across e, which bounds the region of an end or of an edge that is all there is of the simplex.
+  void across(const ViewPoint& p, const ViewPoint& e) {
+    if (e.isZero(0)) return;
+    const ViewPoint x = e.stableNormalized().unitOrthogonal() * (reach / 6), y = e.stableNormalized().cross(x), corners[4] = {p + x + y, p + x - y, p - x - y, p - x + y};
+    for (int i = 0; i < 4; ++i) picture.line(corners[i], corners[(i + 1) % 4], colour.with_alpha(0.4), 1, Stroke::dashed);
+    picture.faces.push_back({{corners[0], corners[1], corners[2], corners[3]}, colour.with_alpha(0.07)});
+  }
+
   /// The normal of face p q r, away from the vertex `from`; of a bare triangle towards the origin.
   ViewPoint outward(int p, int q, int r) const {
     ViewPoint n = (at(q) - at(p)).cross(at(r) - at(p));
@@ -77,7 +85,9 @@ struct RegionPainter {
         const ViewPoint &p = at(part[i]), &q = at(part[(i + 1) % 3]);
         wall(p, q, q + n, p + n);
       }
-    } else if (part.size() == 2 && !rest.empty()) {
+    } else if (simplex.size() == 2) {
+      for (const int i : part) across(at(i), at(1 - i) - at(i));
+    } else if (part.size() == 2) {
       // Between the walls along the normals of the faces beside the edge, and between its ends.
       const ViewPoint &p = at(part[0]), &q = at(part[1]);
       for (const int o : rest) {

@@ -15,6 +15,8 @@ SceneMeshes scene_meshes(const Scene& scene) {
   return meshes;
 }
 
+std::string body_letter(int body) { return body < 26 ? std::string(1, static_cast<char>('A' + body)) : std::to_string(body); }
+
 double half_view(const Projection& projection) { return std::min(projection.rectangle().width, projection.rectangle().height) / projection.pixels_per_length() / 2; }
 
 ViewPoint middle(const DisplayMesh& mesh) {

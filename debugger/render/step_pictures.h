@@ -31,6 +31,8 @@ struct SceneMeshes {
 };
 SceneMeshes scene_meshes(const Scene& scene);
 
+/// What a body goes by where there is no room for its name: A, B, …, Z, then its number.
+std::string body_letter(int body);
 /// The middle of what is seen of a body: its pose's position may lie far from it.
 ViewPoint middle(const DisplayMesh& mesh);
 /// The arrow of a direction in the difference, and of one at a body, as shares of half the view's shorter side.

@@ -1,6 +1,7 @@
 // The world: the bodies, their supports, the answer; of bodies that move where they came from and how fast they are.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "algo/motion.h"
 #include "debugger/render/painter.h"
@@ -102,7 +103,16 @@ class WorldPainter : public Painter {
   }
 
   /// Whose a motion is, where there are others.
-  std::string of_body(std::size_t i) const { return frame_.places.size() > 2 ? std::string(" of ") + static_cast<char>('A' + i) : ""; }
+  std::string of_body(std::size_t i) const { return frame_.places.size() > 2 ? " of " + body_letter(static_cast<int>(i)) : ""; }
+
+  /// Of many bodies the two that are looked at have names at their arrows.
+  bool named(int i) const { return frame_.places.size() <= 4 || i == frame_.pair[0] || i == frame_.pair[1]; }
+
+  static std::string three_digits(double x) {
+    char text[16];
+    std::snprintf(text, sizeof text, "%.3g", x);
+    return text;
+  }
 
   /// Angular velocities: in space an arrow along the axis, in the plane an arc the way the body turns.
   void spins(double fastest) {
@@ -115,7 +125,7 @@ class WorldPainter : public Painter {
         if (!(w.norm() > least_share * fastest)) continue;
         const ViewPoint tip = from + w * (0.3 * unit() / fastest);
         picture_.arrow(from, tip, palette_.chosen);
-        label(tip, "turning" + of_body(i), palette_.chosen);
+        if (named(static_cast<int>(i))) label(tip, "turning" + of_body(i), palette_.chosen);
       } else if (place.angular_velocity.size() == 1 && std::abs(place.angular_velocity[0]) > least_share * fastest) {
         const double sweep = place.angular_velocity[0] / fastest * 1.5, r = 0.14 * unit();
         const auto on_arc = [&](double share) { return ViewPoint(from + r * ViewPoint(std::cos(share * sweep), std::sin(share * sweep), 0)); };
@@ -124,7 +134,6 @@ class WorldPainter : public Painter {
       }
     }
   }
-
 
   void velocities() {
     if (!moves()) return;
@@ -137,7 +146,7 @@ class WorldPainter : public Painter {
       if (!(v.norm() > least_share * fastest)) continue;
       const ViewPoint from = to_view(frame_.places[i].position) + one_d_offset(static_cast<int>(i)), tip = from + v * (0.35 * unit() / fastest);
       picture_.arrow(from, tip, palette_.support);
-      label(tip, "velocity" + of_body(i), palette_.support);
+      if (named(static_cast<int>(i))) label(tip, "velocity" + of_body(i) + " " + three_digits(v.norm()), palette_.support);
     }
     if (const auto* e = std::get_if<recorded::ImpulseApplied>(&recording_.events[frame_.step])) impulse(*e);
     if (const auto* e = std::get_if<recorded::ContactFound>(&recording_.events[frame_.step])) picture_.points.push_back({to_view(e->point), palette_.chosen, 6, Mark::square, -1});

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "recordings/check_text.h"
 #include "recordings/json_writing.h"
 
 namespace gjkdbg {
@@ -40,18 +41,6 @@ AnyVector loose_vector(const Json& json, const Place& place, int dimension) {
   AnyVector v(dimension);
   for (std::size_t i = 0; i < json.size(); ++i) v[static_cast<Eigen::Index>(i)] = json[i].is_null() || json[i] == not_finite ? nan : read_number(json[i], Place(place, i));
   return v;
-}
-
-std::string list_text(const std::vector<int>& numbers) {
-  std::string list;
-  for (const int n : numbers) list += (list.empty() ? "[" : ", ") + std::to_string(n);
-  return list + "]";
-}
-
-std::string text_of(const AnyVector& v) {
-  std::string out;
-  append_vector(out, v);
-  return out;
 }
 
 }  // namespace
@@ -186,142 +175,6 @@ void SolverRecorder::end_gjk(GjkStatus status) {
   begin(AnyVector::Zero(dimension_));
   gjk_ended_ = true;
   recording_.events.push_back(recorded::GjkEnded{std::max(0, iteration_ - 1), status, nan, nan});
-}
-
-/// A face's plane from its vertices; not turned yet.
-recorded::Face SolverRecorder::make_face(const std::vector<int>& vertices) {
-  recorded::Face face{next_face_++, vertices, AnyVector::Zero(dimension_), 0};
-  std::vector<AnyVector> w;
-  for (const int v : vertices)
-    if (const auto found = vertices_.find(v); found != vertices_.end()) w.push_back(found->second);
-  if (w.size() != vertices.size() || static_cast<int>(w.size()) != dimension_) return face;
-  if (dimension_ == 3) face.normal = Eigen::Vector3d(w[1] - w[0]).cross(Eigen::Vector3d(w[2] - w[0]));
-  else if (dimension_ == 2) face.normal = Eigen::Vector2d(w[1][1] - w[0][1], w[0][0] - w[1][0]);
-  else face.normal = AnyVector::Ones(1);
-  if (face.normal.norm() > 0) face.normal.stableNormalize();
-  face.distance = face.normal.dot(w[0]);
-  return face;
-}
-
-/// Outwards, seen from the middle of the vertices in use: a solver need not keep a winding.
-void SolverRecorder::orient(std::vector<recorded::Face>& faces) const {
-  std::set<int> used;
-  for (const auto& [key, face] : faces_) used.insert(key.begin(), key.end());
-  for (const auto& face : faces) used.insert(face.vertices.begin(), face.vertices.end());
-  AnyVector middle = AnyVector::Zero(dimension_);
-  int count = 0;
-  for (const int v : used)
-    if (const auto found = vertices_.find(v); found != vertices_.end()) middle += found->second, ++count;
-  if (count > 0) middle /= count;
-  for (auto& face : faces)
-    if (face.distance < face.normal.dot(middle)) face.normal = -face.normal, face.distance = -face.distance;
-}
-
-void SolverRecorder::polytope(const Json& json) {
-  announced_ = AnyVector();
-  const Place root, at(root, "faces");
-  if (!json.contains("faces") || !json["faces"].is_array()) reject(at, "bad-message", "must be a list of faces");
-  if (json["faces"].empty()) reject(at, "bad-message", "is empty: every face was removed, and none was left to join the new vertex to; the usual cause is a test of which faces it sees with its sign turned");
-  end_gjk(GjkStatus::enclosed);
-  std::set<std::set<int>> wanted;
-  std::vector<recorded::Face> added;
-  std::string twice;
-  for (std::size_t i = 0; i < json["faces"].size(); ++i) {
-    const std::vector<int> vertices = face_vertices(json["faces"][i], Place(at, i));
-    const std::set<int> key(vertices.begin(), vertices.end());
-    if (!wanted.insert(key).second) twice = list_text(vertices);
-    else if (!faces_.contains(key)) added.push_back(make_face(vertices));
-  }
-  if (!twice.empty() && (epa_ || wanted.size() > 1))  // one face and its back are a flat start
-    recording_.events.push_back(recorded::Warning{"open-polytope", "The polytope lists the face " + twice + " twice: its edges then belong to four faces instead of 2. The usual cause is " +
-                                                                       (epa_ ? "a face that is added to the list before the one it replaces is taken out, or an edge of the horizon that is there twice." : "a table of the first faces in which one stands for another.")});
-  grow(wanted, std::move(added));
-}
-
-/// The difference to the polytope before, as an event.
-void SolverRecorder::grow(const std::set<std::set<int>>& wanted, std::vector<recorded::Face> added) {
-  recorded::PolytopeGrown e;
-  std::set<int> old;
-  for (const auto& [key, face] : faces_) old.insert(key.begin(), key.end());
-  std::map<std::array<int, 2>, int> rim;
-  for (auto it = faces_.begin(); it != faces_.end();) {
-    if (wanted.contains(it->first)) {
-      ++it;
-      continue;
-    }
-    e.removed.push_back(it->second.face);
-    const auto& v = it->second.vertices;
-    for (std::size_t i = 0; i < v.size() && dimension_ == 3; ++i) {
-      const int p = v[i], q = v[(i + 1) % v.size()];
-      ++rim[{std::min(p, q), std::max(p, q)}];
-    }
-    gone_[it->first] = recording_.events.size();
-    it = faces_.erase(it);
-  }
-  orient(added);
-  for (const auto& face : added) faces_[std::set<int>(face.vertices.begin(), face.vertices.end())] = face;
-  if (!epa_) {
-    epa_ = true;
-    std::set<int> used;
-    for (const auto& face : added) used.insert(face.vertices.begin(), face.vertices.end());
-    recording_.events.push_back(recorded::PolytopeSeeded{{used.begin(), used.end()}, std::move(added)});
-    return;
-  }
-  if (e.removed.empty() && added.empty()) return;
-  for (const auto& [edge, count] : rim)
-    if (count == 1) e.horizon.push_back(edge);
-  e.iteration = epa_iteration_;
-  // The one that the new faces have and no face had; the newest support may be another's, where one is asked for every face as it is made.
-  e.vertex = -1;
-  for (const auto& face : added)
-    for (const int v : face.vertices)
-      if (!old.contains(v)) e.vertex = std::max(e.vertex, v);
-  if (e.vertex < 0) e.vertex = std::max(0, supports_ - 1);
-  e.added = std::move(added);
-  e.lower_bound = e.upper_bound = nan;
-  recording_.events.push_back(std::move(e));
-}
-
-void SolverRecorder::face(const Json& json) {
-  announced_ = AnyVector();
-  const Place root, at(root, "vertices");
-  if (!json.contains("vertices")) reject(at, "bad-message", "is missing");
-  const std::vector<int> vertices = face_vertices(json["vertices"], at);
-  end_gjk(GjkStatus::enclosed);
-  // Of a polytope's faces the recording holds the numbers, and `check` sees them; of this one it would not.
-  for (const int v : vertices)
-    if (!vertices_.contains(v)) {
-      recording_.events.push_back(recorded::Warning{"unknown-vertex", "The face chosen names vertex " + std::to_string(v) + ", which was never handed out by a support query; " + std::to_string(supports_) + " were so far."});
-      break;
-    }
-  const auto found = faces_.find(std::set<int>(vertices.begin(), vertices.end()));
-  recorded::Face face = found != faces_.end() ? found->second : make_face(vertices);
-  recorded::FaceChosen e{epa_iteration_, face.face, face.normal, face.distance};
-  const bool known = found != faces_.end();
-  if (!known && epa_) {
-    const auto gone = gone_.find(std::set<int>(vertices.begin(), vertices.end()));
-    recording_.events.push_back(recorded::Warning{"wrong-face", "The face chosen, " + list_text(vertices) + ", is none of the polytope: it was " + (gone == gone_.end() ? "never there" : "removed at step " + std::to_string(gone->second)) +
-                                                                  ". The usual cause is an entry of a list or a queue that outlives its face."});
-  }
-  if (const auto n = json.find("normal"); n != json.end() && !n->is_null()) {
-    e.normal = read_vector(*n, Place(root, "normal"), dimension_);
-  }
-  if (const auto d = json.find("distance"); d != json.end() && !d->is_null()) e.distance = read_number(*d, Place(root, "distance"));
-  if (!known) check_plane(face, e);
-  chosen_ = face;
-  recording_.events.push_back(std::move(e));
-}
-
-/// The plane that is given for a face of no polytope, which `check` knows nothing of, holds its vertices.
-void SolverRecorder::check_plane(const recorded::Face& face, const recorded::FaceChosen& given) {
-  const double length = given.normal.norm();
-  for (const int v : face.vertices) {
-    const auto w = vertices_.find(v);
-    if (w == vertices_.end() || !(length > 0) || std::abs(std::abs(given.normal.dot(w->second) / length) - std::abs(given.distance)) <= 1e-6 * (w->second.norm() + std::abs(given.distance))) continue;
-    recording_.events.push_back(recorded::Warning{"wrong-face", "The face chosen is given the normal " + text_of(given.normal) + " and the distance " + std::to_string(given.distance) + ", but its vertex " + std::to_string(v) + " lies at " +
-                                                                  std::to_string(given.normal.dot(w->second) / length) + " along it."});
-    return;
-  }
 }
 
 void SolverRecorder::result(const Json& json) {

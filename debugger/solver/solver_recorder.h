@@ -46,6 +46,7 @@ class SolverRecorder {
   std::vector<int> face_vertices(const Json& json, const Place& place) const;
   recorded::Face make_face(const std::vector<int>& vertices);
   void orient(std::vector<recorded::Face>& faces) const;
+  std::string winding() const;
   void grow(const std::set<std::set<int>>& wanted, std::vector<recorded::Face> added);
 
   Recording recording_;

@@ -33,6 +33,9 @@ void App::open_or_throw(const std::filesystem::path& file) {
   session.open(file);
   show_lab = false;
   settings.selected.reset();
+  if (session.findings().empty()) return;
+  session.go_to(session.findings().front().step);  // what is looked for
+  note("at the first finding; Home is the beginning");
 }
 
 void App::open_gallery(const std::string& name) { open(gallery_.file(name)); }
@@ -58,7 +61,9 @@ void App::fit_what_has_left() {
 }
 
 void App::frame() {
+  const bool played = session.playing;
   session.tick(ImGui::GetIO().DeltaTime);
+  if (played && !session.playing && session.stops_at(session.step())) note(session.breakpoints.contains(session.step()) ? "stopped at a breakpoint" : "stopped: " + stop_when_text);
   thumbnails_.next_frame();
   notice_left_ = std::max(0.f, notice_left_ - ImGui::GetIO().DeltaTime);
   if (preferences.dark != theme.dark) apply_colours(theme, preferences.dark);
@@ -92,7 +97,7 @@ void App::panels(const Area& window) {
   }
   if (lecture) {
     const float bottom = std::max(theme.px(190), window.height * 0.27f);
-    theme.marks = lecture_scale(window.height);
+    theme.marks = 1.4f * lecture_scale(window.height);
     view_panels(*this, {gap, top + gap, window.width - 2 * gap, height - bottom - gap}, true);
     theme.marks = 1;
     lecture_panel({gap, top + gap + height - bottom, window.width - 2 * gap, bottom});
@@ -280,9 +285,10 @@ void App::title_and_chips(const Area& area) {
   if (too_wide()) method = short_name;
   const bool alone = too_wide();  // not even that
   const float chips = alone ? width(result) : both();
-  if (std::max(middle, here) + title < area.width - chips - theme.px(24)) {
+  if (const float room = area.width - chips - theme.px(24) - std::max(middle, here); room > std::min(title, theme.px(80))) {
     ImGui::SameLine(std::max(middle, here));
-    ImGui::TextUnformatted(name.c_str());
+    ImGui::TextUnformatted(shortened(theme.text, name, room).c_str());
+    if (title > room && ImGui::IsItemHovered()) tooltip(theme, name);
   }
   ImGui::SameLine(area.width - chips - theme.px(16));
   if (!alone) {
@@ -297,14 +303,24 @@ void App::title_and_chips(const Area& area) {
   ImGui::SetTooltip("%s\nstatus: %s%s", result.c_str(), r.status.c_str(), bounds.c_str());
 }
 
+namespace {
+
+/// In a window of its own, so that what is above stays and the gallery is scrolled for itself.
+void scrolling_scene(App& app) {
+  if (begin_list("scene")) scene_panel(app);
+  ImGui::EndChild();
+}
+
+}  // namespace
+
 void App::left_panel(const Area& area) {
-  if (begin_area("left", area, true)) {
+  if (begin_area("left", area)) {
     const float half = (ImGui::GetWindowContentRegionWidth() - theme.px(6)) / 2;
     if (tab_button(theme, "Gallery", left_tab == LeftTab::gallery, half)) left_tab = LeftTab::gallery;
     ImGui::SameLine(0, theme.px(6));
     if (tab_button(theme, "Scene", left_tab == LeftTab::scene, half)) left_tab = LeftTab::scene;
     ImGui::Dummy({0, theme.px(4)});
-    left_tab == LeftTab::gallery ? gallery_panel(*this) : scene_panel(*this);
+    left_tab == LeftTab::gallery ? gallery_panel(*this) : scrolling_scene(*this);
   }
   ImGui::EndChild();
 }
@@ -345,7 +361,7 @@ void App::icon_rail(const Area& area) {
     ImGui::SetNextWindowSize({theme.px(290), std::min(area.height, theme.px(620))});
     if (!ImGui::BeginPopup(popup_of(gallery ? LeftTab::gallery : LeftTab::scene))) continue;
     rail_open_ = true;
-    gallery ? gallery_panel(*this) : scene_panel(*this);
+    gallery ? gallery_panel(*this) : scrolling_scene(*this);
     ImGui::EndPopup();
   }
   ImGui::EndChild();

@@ -139,6 +139,8 @@ void view_panels(App& app, const Area& area, bool interactive);
 
 /// A borderless child window over an area; call ImGui::EndChild after it.
 bool begin_area(const char* name, const Area& area, bool scrolls = false);
+/// What is left of a panel, scrolled for itself. Like begin_area, to be ended by ImGui::EndChild.
+bool begin_list(const char* name);
 void section(const Theme& theme, const char* title);
 /// A line of text, or as much of it as fits into `room`, and three dots.
 std::string shortened(const ImFont* font, const std::string& text, float room);

@@ -287,7 +287,7 @@ struct Explain : ExplainMotion {
   }
 
   Explanation operator()(const recorded::MprEnded& e) const {
-    const std::string title = "MPR ends: " + in_words(word_of(e.status));
+    const std::string title = "MPR ends: " + (e.status == MprStatus::converged ? "the portal is on the boundary" : in_words(word_of(e.status)));
     switch (e.status) {
       case MprStatus::separated: return {title, "The plane of the last support has all of " + difference() + " on its far side: the bodies are apart, by at least " + short_number(-e.depth) + ". How far, MPR does not know."};
       case MprStatus::overlapping: return {title, "The origin lies inside a portal: the bodies overlap, and no more was asked."};
@@ -309,7 +309,7 @@ struct Explain : ExplainMotion {
   }
 
   Explanation operator()(const recorded::AxisTested& e) const {
-    const std::string from[] = {"the normal of a " + facet() + " of " + a(), "the normal of a " + facet() + " of " + b(), "across an edge of each"};
+    const std::string normal = (facet() == "edge" ? "the normal of an " : "the normal of a ") + facet() + " of ", from[] = {normal + a(), normal + b(), "across an edge of each"};
     const std::string axis = "Along " + short_vector(e.direction) + ", " + from[static_cast<std::size_t>(e.source)] + ", ";
     if (e.distance > 0) return {"An axis with a gap", axis + "there is a gap of " + short_number(e.distance) + " between the bodies: this axis separates them, and they are at least that far apart."};
     return {"An axis without a gap", axis + "the bodies overlap by " + short_number(-e.distance) + (e.lower_bound <= e.distance ? ", the least so far: the depth is no more than that." : ", more than along the best axis so far.")};
@@ -371,10 +371,10 @@ struct Explain : ExplainMotion {
   }
 
   Explanation operator()(const recorded::LinesSolved& e) const {
-    const auto place = [](double x, const char* name) { return std::string(name) + " = " + short_number(x) + (x < 0 ? ", before its beginning" : x > 1 ? ", beyond its end" : ", within it"); };
+    const auto place = [](double x, const char* name, const std::string& body) { return name + short_number(x) + (x < 0 ? ", before the beginning of " : x > 1 ? ", beyond the end of " : ", within ") + body + "'s segment"; };
     const bool s = !std::isnan(e.s), t = !std::isnan(e.t);
-    if (s && t) return {"The lines are solved", "Where both derivatives of |v|\xC2\xB2 vanish the lines are nearest: " + place(e.s, "s") + ", " + place(e.t, "t") + ". What is out of range is clamped, and the other is taken anew."};
-    if (s || t) return {"The line is solved", "The foot of the perpendicular lies at " + (s ? place(e.s, "s") : place(e.t, "t")) + "."};
+    if (s && t) return {"The lines are solved", "Where both derivatives of |v|\xC2\xB2 vanish the lines are nearest: " + place(e.s, "s = ", a()) + "; " + place(e.t, "t = ", b()) + ". What is out of range is clamped, and the other is taken anew."};
+    if (s || t) return {"The line is solved", "The foot of the perpendicular lies at " + (s ? place(e.s, "s = ", a()) : place(e.t, "t = ", b())) + "."};
     if (frame.parallelogram && !frame.parallelogram->edge_a.isZero(0)) return {"The lines are parallel", "The determinant is zero: every place along them is as near as the others, and an end of a segment will do."};
     return {"Nothing to solve", "A point has no parameter."};
   }

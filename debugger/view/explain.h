@@ -35,8 +35,6 @@ bool of_two_boxes(const Recording& recording, std::size_t step);
 std::string body_name(const Recording& recording, int body);
 /// What a polytope's border consists of: "face"; in the plane "edge".
 std::string facet_name(const Recording& recording);
-/// A, B, C, …: what it goes by where there is no room for its name.
-std::string body_letter(int body);
 /// Vertices as A, B, C, D: by their places in `order`.
 std::string letters(const std::vector<int>& vertices, const std::vector<int>& order);
 

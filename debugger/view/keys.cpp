@@ -56,6 +56,7 @@ void App::keys() {
     if (key_pressed(Key::escape)) ImGui::ClosePopupToLevel(ImGui::GetCurrentContext()->OpenPopupStack.Size - 1, true);
     return;
   }
+  if (rail_open_ && key_pressed(Key::escape)) return ImGui::ClosePopupToLevel(0, true);
   step_keys(shift_held(), control_held());
   if (control_held()) return control_keys(shift_held());
   if (key_pressed(Key::home)) session.playing = false, session.go_to(0);
@@ -64,7 +65,7 @@ void App::keys() {
   if (key_pressed(Key::x)) show_lab = !show_lab;
   if (show_lab && key_pressed(Key::escape)) show_lab = false;
   if (key_pressed(Key::b)) session.toggle_breakpoint();
-  if (key_pressed(Key::m)) session.add_bookmark();
+  if (key_pressed(Key::m) && !session.add_bookmark()) note("all nine bookmarks are taken");
   if (key_pressed(Key::left_bracket)) session.loop = true, session.loop_from = session.step();
   if (key_pressed(Key::right_bracket)) session.loop = true, session.loop_to = session.step();
   if (key_pressed(Key::f3)) find_again(shift_held());

@@ -21,6 +21,8 @@ std::string in_difference(const std::string& name, const Frame& frame) {
   if (name.starts_with("nearest: ")) return "The one nearest to O, which should have been chosen: the distance of another is no lower bound of the depth.";
   if (name.starts_with("region ")) return "Whatever lies here has its nearest point of the simplex on the vertices named. O lies here, so the others are not needed.";
   if (name.ends_with("dropped")) return "A vertex that is dropped: the point nearest to O does without it.";
+  if (name == "at most") return "As far from O as the signed distance is at most: the border of " + difference + " comes at least this near.";
+  if (name == "at least") return "As far from O as the signed distance is at least: nothing of the border is nearer.";
   if (name == "inside") return "A point inside " + difference + ". MPR looks where the ray from here through O leaves.";
   if (name == "x") return "x, how far along r the origin surely gets before it meets " + difference + ".";
   if (name == "r") return "r, the motion of " + b + " less that of " + a + ": O moves along it while " + difference + " stands still.";

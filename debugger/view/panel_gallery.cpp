@@ -54,12 +54,9 @@ void scene_rows(App& app, const std::vector<std::string>& names) {
   ImGui::PopStyleVar();
 }
 
-}  // namespace
-
-void gallery_panel(App& app) {
+/// Those that are looked for, or all in their lessons.
+void scenes(App& app, bool entered) {
   const Theme& theme = app.theme;
-  ImGui::SetNextItemWidth(-1);
-  const bool entered = ImGui::InputTextWithHint("##search", "find a scene", app.gallery_search, sizeof app.gallery_search, ImGuiInputTextFlags_EnterReturnsTrue);
   if (app.gallery_search[0] != 0) {
     const std::vector<std::string> found = matches(app, app.gallery_search);
     const std::string count = found.empty() ? "no scene has it" : std::to_string(found.size()) + (found.size() == 1 ? " scene" : " scenes");
@@ -78,12 +75,19 @@ void gallery_panel(App& app) {
       continue;
     }
     ImGui::PushFont(theme.small);
-    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_faint));
-    ImGui::TextWrapped("%s", lesson.text.c_str());
-    ImGui::PopStyleColor();
+    wrapped(lesson.text, theme.palette.text_faint);
     ImGui::PopFont();
     scene_rows(app, lesson.scenes);
   }
+}
+
+}  // namespace
+
+void gallery_panel(App& app) {
+  ImGui::SetNextItemWidth(-1);
+  const bool entered = ImGui::InputTextWithHint("##search", "find a scene", app.gallery_search, sizeof app.gallery_search, ImGuiInputTextFlags_EnterReturnsTrue);
+  if (begin_list("scenes")) scenes(app, entered);
+  ImGui::EndChild();
 }
 
 }  // namespace gjkdbg

@@ -91,12 +91,14 @@ float dashed_piece(const Theme& theme, ImVec2 a, ImVec2 b, Colour colour, float 
   return drawn + length;
 }
 
-/// The length of the momentum, from 0 to its greatest.
+/// The length of the momentum, from 0 to its greatest, which stands at the right.
 void momentum_curve(App& app, ImVec2 from, ImVec2 to, double first, double last) {
   double most = 0;
   for (const Event& event : app.session.recording().events)
     if (const auto* e = std::get_if<recorded::State>(&event)) most = std::max(most, e->momentum.norm());
   if (!(most > 0)) return;
+  for (const auto& [value, y] : {std::pair(most, from.y), {0.0, to.y}})
+    ImGui::GetWindowDrawList()->AddText(app.theme.small, app.theme.small->FontSize * 0.85f, {to.x + app.theme.px(6), y - app.theme.px(6)}, packed(app.theme.palette.text_soft), short_number(value).c_str());
   std::optional<ImVec2> before;
   float drawn = 0;
   for (const Event& event : app.session.recording().events)
@@ -193,7 +195,7 @@ void motion_plot(App& app, float width, float height) {
   const ImVec2 at = plot_frame(theme, width, height, cast ? "distance over time, each advance" : "over time");
   if (!cast) {
     const float y = at.y + theme.px(6), momentum = key_entry(theme, at.x + theme.px(84), y, "energy", p.simplex, false);
-    key_entry(theme, momentum, y, width < theme.px(310) ? "momentum" : "momentum, from 0", p.text_soft, true);
+    key_entry(theme, momentum, y, width < theme.px(310) ? "momentum" : "momentum, at the right", p.text_soft, true);
   }
   struct Point {
     double time, value;
@@ -213,7 +215,7 @@ void motion_plot(App& app, float width, float height) {
     const double beside = std::max(1e-12, std::abs(middle) * 1e-3);
     low = middle - beside, high = middle + beside;
   }
-  const ImVec2 from{at.x + theme.px(64), at.y + theme.px(28)}, to{at.x + width - theme.px(14), at.y + height - theme.px(22)};
+  const ImVec2 from{at.x + theme.px(64), at.y + theme.px(28)}, to{at.x + width - theme.px(cast ? 14 : 58), at.y + height - theme.px(22)};
   const auto place = [&](const Point& x) {
     return ImVec2{from.x + static_cast<float>((x.time - first) / std::max(last - first, 1e-300)) * (to.x - from.x), to.y - static_cast<float>((x.value - low) / (high - low)) * (to.y - from.y)};
   };

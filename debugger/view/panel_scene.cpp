@@ -1,18 +1,31 @@
 // The left panel: the open scene with everything that can be edited.
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
 #include <numbers>
 
 #include "algo/motion.h"
 #include "debugger/view/app.h"
 #include "debugger/view/explain.h"
 #include "debugger/view/input.h"
+#include "debugger/view/plot.h"
 
 namespace gjkdbg {
 
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
-constexpr float label_width = 108;  ///< logical pixels
+constexpr float label_width = 96;  ///< logical pixels
+
+/// The most digits with which each of the numbers fits into its share of the room; up to five, of which whole numbers need no exponent.
+const char* format_that_fits(const double* values, int count, float room) {
+  const float field = (room - static_cast<float>(count - 1) * ImGui::GetStyle().ItemInnerSpacing.x) / static_cast<float>(count) - ImGui::GetStyle().FramePadding.x;
+  for (const char* format : {"%.4g", "%.5g", "%.3g", "%.2g"}) {
+    const auto fits = [&](double x) { return ImGui::CalcTextSize(formatted(x, format).c_str()).x <= field; };
+    if (std::all_of(values, values + count, fits)) return format;
+  }
+  return "%.1g";
+}
 
 /// One labelled row of numbers; true when edited.
 bool numbers(const Theme& theme, const char* label, double* values, int count, float speed, const double* low = nullptr) {
@@ -24,10 +37,17 @@ bool numbers(const Theme& theme, const char* label, double* values, int count, f
   ImGui::PushID(label);
   for (int i = 0; i < count; ++i) values[i] += 0.0;  // no "-0"
   const double high = 1e12;
-  const bool edited = ImGui::DragScalarN("##values", ImGuiDataType_Double, values, count, speed, low, low ? &high : nullptr, "%.4g");
+  const char* format = format_that_fits(values, count, ImGui::GetContentRegionAvail().x);
+  const bool short_of = std::any_of(values, values + count, [&](double x) { return std::strtod(formatted(x, format).c_str(), nullptr) != x; });
+  const bool edited = ImGui::DragScalarN("##values", ImGuiDataType_Double, values, count, speed, low, low ? &high : nullptr, format, std::strcmp(format, "%.4g") == 0 ? 0 : ImGuiSliderFlags_NoRoundToFormat);
   takes_a_number();
   ImGui::PopID();
   ImGui::PopFont();
+  if (short_of && ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
+    std::string all;
+    for (int i = 0; i < count; ++i) all += (i == 0 ? "" : ", ") + all_digits(values[i]);
+    ImGui::SetTooltip("%s", all.c_str());
+  }
   return edited;
 }
 
@@ -136,9 +156,7 @@ bool body(const Theme& theme, Body& b, int index, Colour colour, int dimension, 
   ImGui::TextColored(vec(colour), "%s", body_letter(index).c_str());
   if (!b.name.empty() && b.name != body_letter(index)) {
     ImGui::SameLine();
-    ImGui::PushClipRect(ImGui::GetCursorScreenPos(), {ImGui::GetWindowPos().x + theme.px(label_width - 4), ImGui::GetCursorScreenPos().y + ImGui::GetFrameHeight()}, true);
-    ImGui::TextColored(vec(theme.palette.text_soft), "%s", b.name.c_str());
-    ImGui::PopClipRect();
+    ImGui::TextColored(vec(theme.palette.text_soft), "%s", shortened(theme.text, b.name, theme.px(label_width - 4) - ImGui::GetCursorPosX()).c_str());
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", b.name.c_str());
   }
   ImGui::SameLine(theme.px(label_width));
@@ -175,7 +193,7 @@ bool choice(const Theme& theme, const char* label, int& value, const Names& name
   const std::string now(names[static_cast<std::size_t>(value)]);
   const float room = ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - 2 * ImGui::GetStyle().FramePadding.x;
   const bool open = ImGui::BeginCombo("##choice", shortened(theme.text, now, room).c_str());
-  if (!open && ImGui::IsItemHovered() && ImGui::CalcTextSize(now.c_str()).x > room) ImGui::SetTooltip("%s", now.c_str());
+  if (!open && ImGui::IsItemHovered()) tooltip(theme, (ImGui::CalcTextSize(now.c_str()).x > room ? now + "\n" : "") + meaning);
   if (open) {
     for (const int i : offered)
       if (ImGui::Selectable(std::string(names[static_cast<std::size_t>(i)]).c_str(), i == value)) value = i, edited = true;
@@ -201,40 +219,23 @@ bool start(const Theme& theme, const Settings& now, SceneFile& next) {
   return edited;
 }
 
-bool method(App& app, SceneFile& next) {
-  const Theme& theme = app.theme;
-  const Settings& now = app.session.recording().settings;
-  static constexpr const char* query_meaning = "The least the scene needs: yes or no, how far apart, how deep as well, or the contact points too. Nothing beyond it is computed.";
-  section(theme, "METHOD");
-  if (foreign(app.session.recording())) {
-    ImGui::PushFont(theme.small);
-    wrapped("This run is your solver's. A change here or to a body solves the scene by one of gjkdbg's own methods; Ctrl-Z brings your run back.", theme.palette.text_faint);
-    ImGui::PopFont();
-  }
-  bool edited = false;
-  int query = static_cast<int>(next.scene.query), scalar = static_cast<int>(now.scalar);
-  int name = static_cast<int>(next.method.name == MethodName::fastest ? MethodName::fastest : now.name);
-  if ((next.scene.motion ? choice(theme, "query", query, query_names, {query}, query_meaning) : choice(theme, "query", query, query_names, {0, 1, 2, 3}, query_meaning))) {
-    next.scene.query = static_cast<Query>(query), edited = true;
-    if (query != 0 && now.name == MethodName::gjk_boolean) next.method.name = MethodName::gjk;
-  }
-  if (choice(theme, "method", name, method_names, possible_methods(next), "The algorithm: those that take these bodies and answer this query.")) change_name(next.method, static_cast<MethodName>(name)), edited = true;
+/// What GJK and EPA are told.
+bool gjk_settings(const Theme& theme, const Settings& now, SceneFile& next) {
   int part = static_cast<int>(now.closest_point);
-  const bool distances = now.name != MethodName::gjk_boolean && now.name != MethodName::closed_form;
-  const bool takes_over = now.name == MethodName::mpr || now.name == MethodName::sat || now.name == MethodName::projections;
-  if (takes_over) {
-    ImGui::PushFont(theme.small);
-    wrapped("Where GJK and EPA take over from it:", theme.palette.text_faint);
-    ImGui::PopFont();
-  }
-  if (distances && choice(theme, "closest point", part, closest_point_names, {0, 1, 2}, "How GJK finds the simplex's point nearest the origin: by signed volumes, by Johnson's determinants, or by going through the Voronoi regions of its parts.")) next.method.closest_point = static_cast<ClosestPoint>(part), edited = true;
-  if (distances && start(theme, now, next)) edited = true;
+  if (now.name == MethodName::gjk_boolean || now.name == MethodName::closed_form) return false;
+  bool edited = false;
+  if (choice(theme, "closest point", part, closest_point_names, {0, 1, 2}, "How GJK finds the simplex's point nearest the origin: by signed volumes, by Johnson's determinants, or by going through the Voronoi regions of its parts.")) next.method.closest_point = static_cast<ClosestPoint>(part), edited = true;
+  if (start(theme, now, next)) edited = true;
   int directions = static_cast<int>(now.acceleration), rule = static_cast<int>(now.stopping), deep = static_cast<int>(now.penetration);
   if (now.name == MethodName::gjk_accelerated && choice(theme, "directions", directions, acceleration_names, {0, 1, 2}, "What replaces the direction -v: a momentum (Nesterov's or Polyak's), or Newton's step by the curvature of the bodies.")) next.method.acceleration = static_cast<Acceleration>(directions), edited = true;
-  if (distances && choice(theme, "stopping", rule, stopping_names, {0, 1, 2, 3, 4}, "When GJK is done: when the bounds of the distance meet (ours), or by the rule of another implementation, which may stop early.")) next.method.stopping = static_cast<Stopping>(rule), edited = true;
-  if (distances && (query == 2 || query == 3) && choice(theme, "when deep", deep, penetration_names, {0, 1, 2}, "What measures the depth of an overlap: EPA, the shortest way out; MPR, a way out in one direction; or nothing.")) next.method.penetration = static_cast<Penetration>(deep), edited = true;
-  if (choice(theme, "scalar", scalar, scalar_names, {0, 1}, "What is counted in: double has 16 digits, float 7.")) next.method.scalar = static_cast<Scalar>(scalar), next.method.tolerance.reset(), edited = true;
-  if (now.name == MethodName::closed_form) return edited;  // a formula neither converges nor iterates
+  if (choice(theme, "stopping", rule, stopping_names, {0, 1, 2, 3, 4}, "When GJK is done: when the bounds of the distance meet (ours), or by the rule of another implementation, which may stop early.")) next.method.stopping = static_cast<Stopping>(rule), edited = true;
+  if ((next.scene.query == Query::penetration || next.scene.query == Query::contact) && choice(theme, "when deep", deep, penetration_names, {0, 1, 2}, "What measures the depth of an overlap: EPA, the shortest way out; MPR, a way out in one direction; or nothing.")) next.method.penetration = static_cast<Penetration>(deep), edited = true;
+  return edited;
+}
+
+/// Where a run ends.
+bool limits(const Theme& theme, const Settings& now, SceneFile& next) {
+  bool edited = false;
   setting_label(theme, "tolerance", "How far apart the bounds may be at the end, as a share of the distance or depth.");
   ImGui::SameLine(theme.px(label_width));
   ImGui::SetNextItemWidth(-1);
@@ -253,9 +254,38 @@ bool method(App& app, SceneFile& next) {
   return edited;
 }
 
+bool method(App& app, SceneFile& next) {
+  const Theme& theme = app.theme;
+  const Settings& now = app.session.recording().settings;
+  static constexpr const char* query_meaning = "The least the scene needs: yes or no, how far apart, how deep as well, or the contact points too. Nothing beyond it is computed.";
+  section(theme, "METHOD");
+  if (foreign(app.session.recording())) {
+    ImGui::PushFont(theme.small);
+    wrapped("This run is your solver's. A change here or to a body solves the scene by one of gjkdbg's own methods; Ctrl-Z brings your run back.", theme.palette.text_faint);
+    ImGui::PopFont();
+  }
+  bool edited = false;
+  int query = static_cast<int>(next.scene.query), scalar = static_cast<int>(now.scalar);
+  int name = static_cast<int>(next.method.name == MethodName::fastest ? MethodName::fastest : now.name);
+  if ((next.scene.motion ? choice(theme, "query", query, query_names, {query}, query_meaning) : choice(theme, "query", query, query_names, {0, 1, 2, 3}, query_meaning))) {
+    next.scene.query = static_cast<Query>(query), edited = true;
+    if (query != 0 && now.name == MethodName::gjk_boolean) next.method.name = MethodName::gjk;
+  }
+  if (choice(theme, "method", name, method_names, possible_methods(next), "The algorithm: those that take these bodies and answer this query.")) change_name(next.method, static_cast<MethodName>(name)), edited = true;
+  const bool takes_over = now.name == MethodName::mpr || now.name == MethodName::sat || now.name == MethodName::projections;
+  if (!takes_over) edited |= gjk_settings(theme, now, next);
+  if (choice(theme, "scalar", scalar, scalar_names, {0, 1}, "What is counted in: double has 16 digits, float 7.")) next.method.scalar = static_cast<Scalar>(scalar), next.method.tolerance.reset(), edited = true;
+  if (now.name != MethodName::closed_form) edited |= limits(theme, now, next);  // a formula neither converges nor iterates
+  if (!takes_over) return edited;
+  ImGui::PushFont(theme.small);
+  wrapped("Where GJK and EPA take over from it:", theme.palette.text_faint);
+  ImGui::PopFont();
+  return gjk_settings(theme, now, next) || edited;
+}
+
 /// Moving scenes take any number of bodies.
 bool add_body(SceneFile& next) {
-  if (next.scene.bodies.size() >= 12 || !ImGui::SmallButton("add a body")) return false;
+  if (next.scene.bodies.size() >= 12 || !ImGui::Button("add a body")) return false;
   Body body = next.scene.bodies.back();
   body.name.clear();
   body.pose.position[0] += 2 * std::max(1e-9, reach_of(body.shape, next.scene.dimension));
@@ -270,14 +300,10 @@ void scene_panel(App& app) {
   SceneFile next = app.session.scene();
   if (!next.scene.description.empty()) {
     ImGui::PushFont(theme.small);
-    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
-    ImGui::TextWrapped("%s", next.scene.description.c_str());
+    wrapped(next.scene.description, theme.palette.text_soft);
     // On a line that is there before, too: what is edited stays where it is.
-    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_faint));
     const std::string source = next.scene.source.empty() ? "" : "Source: " + next.scene.source;
-    ImGui::TextWrapped("%s%s", source.c_str(), !app.session.can_undo() ? " " : source.empty() ? "edited since" : ", edited since");
-    ImGui::PopStyleColor();
-    ImGui::PopStyleColor();
+    wrapped(source + (!app.session.can_undo() ? " " : source.empty() ? "Edited since." : ", edited since"), theme.palette.text_faint);
     ImGui::PopFont();
   }
   const bool was_active = ImGui::IsAnyItemActive();

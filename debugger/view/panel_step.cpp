@@ -218,6 +218,7 @@ void vertex(App& app) {
   number_row(app, "w = a - b", v.w, theme.palette.text, v.event);
   number_row(app, "a", v.a, theme.palette.body_a, v.event);
   number_row(app, "b", v.b, theme.palette.body_b, v.event);
+  if (v.event == app.session.step()) return;
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {app.theme.px(8), app.theme.px(2)});
   if (ImGui::Button(("from step " + std::to_string(v.event)).c_str())) app.session.go_to(v.event);
   ImGui::PopStyleVar();
@@ -255,7 +256,7 @@ void answer(App& app) {
     return;
   }
   number_row(theme, "intersecting", r.intersecting ? "yes" : "no", foreign(app.session.recording()) ? theme.palette.text : r.intersecting ? theme.palette.chosen : theme.palette.support);
-  const char* label = !r.signed_distance || !unproven(r) ? "signed distance" : *r.signed_distance < 0 ? "signed distance, at least" : "signed distance, at most";
+  const char* label = unproven(r) ? "signed distance, about" : "signed distance";
   if (r.signed_distance) number_row(app, label, at_the_point(*r.signed_distance), theme.palette.text, last_of<recorded::GjkEnded, recorded::EpaEnded, recorded::MprEnded, recorded::SatEnded, recorded::ClosedFormEnded, recorded::ProjectionsEnded>(app.session), all_digits(*r.signed_distance));
   if (r.normal) number_row(app, "normal", *r.normal, theme.palette.text);
   const int digits = r.witness_a && r.witness_b ? digits_that_tell(*r.witness_a, *r.witness_b) : 4;

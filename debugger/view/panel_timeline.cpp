@@ -221,9 +221,12 @@ void scrubber(App& app) {
       if (iteration < 0) iteration = iteration_of(s.recording().events[end]);
     const float x0 = at.x + static_cast<float>(i) * cell, x1 = at.x + static_cast<float>(end) * cell;
     if (bands.size() % 2 == 1 && x1 - x0 >= 1) draw->AddRectFilled({x0, at.y}, {x1, at.y + size.y}, packed(p.hover.with_alpha(0.6)));
-    bands.push_back({x0, phase, std::max(0, iteration)});
+    // Those of a cast go by their times, above.
+    const bool timed = std::holds_alternative<recorded::CastAdvanced>(s.recording().events[i]) || std::holds_alternative<recorded::CastEnded>(s.recording().events[i]);
+    bands.push_back({x0, phase, timed ? -1 : std::max(0, iteration)});
     i = end;
   }
+  std::erase_if(bands, [](const Band& band) { return band.iteration < 0; });
   number_bands(theme, bands, at, at.x + size.x);
   const float tick = std::clamp(cell * 0.4f, 1.f, theme.px(5));
   const auto draw_tick = [&](std::size_t i, float width) {

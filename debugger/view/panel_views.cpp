@@ -67,9 +67,16 @@ struct Handle {
 };
 Handle handle_of(const App& app, int body, const Projection& projection) {
   const SceneMeshes& meshes = app.session.meshes();
-  const float r = app.theme.px(9);
+  const float r = app.theme.px(9) * app.theme.marks;
   const ImVec2 c = at(projection(middle(meshes.bodies[static_cast<std::size_t>(body)]) + row_offset(body, meshes.dimension, projection)));
   return {c, {c.x + r * 1.9f, c.y - r * 1.5f}, r};
+}
+
+/// Around its middle.
+void body_name(const App& app, ImVec2 middle, const std::string& letter, Colour colour) {
+  const float size = app.theme.small->FontSize * app.theme.marks;
+  const ImVec2 half = app.theme.small->CalcTextSizeA(size, 1e6f, 0, letter.c_str());
+  ImGui::GetWindowDrawList()->AddText(app.theme.small, size, {middle.x - half.x / 2, middle.y - half.y / 2}, packed(colour), letter.c_str());
 }
 
 float distance(ImVec2 p, ImVec2 q) { return std::hypot(p.x - q.x, p.y - q.y); }
@@ -98,9 +105,9 @@ void body_handles(App& app, const Projection& projection, ImDrawList* draw, Held
     if (dimension == 1) draw->AddCircleFilled(h.centre, h.radius, packed(app.theme.palette.view), 24);  // on the bar of its own colour
     draw->AddCircle(h.centre, h.radius, packed(colour.with_alpha(near || (held.body == i && !held.turning) ? 1 : 0.55)), 24, app.theme.px(2));
     if (dimension > 1) draw->AddCircleFilled(h.disc, app.theme.px(3.5f), packed(colour.with_alpha(near_disc || (held.body == i && held.turning) ? 1 : 0.6)), 16);
-    draw->AddText(app.theme.small, app.theme.small->FontSize, {h.centre.x - app.theme.px(4), h.centre.y - app.theme.px(7)}, packed(colour), letter.c_str());
-    if (near) ImGui::SetTooltip("drag: move %s", letter.c_str());
-    if (near_disc) ImGui::SetTooltip("drag: turn %s", letter.c_str());
+    body_name(app, h.centre, letter, colour);
+    if (near && held.body < 0) ImGui::SetTooltip("drag: move %s", letter.c_str());
+    if (near_disc && held.body < 0) ImGui::SetTooltip("drag: turn %s", letter.c_str());
     if ((near || near_disc) && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) held = {i, near_disc}, app.session.begin_edit();
   }
   if (held.body < 0) return;
@@ -130,7 +137,7 @@ void body_letters(App& app, const Projection& projection) {
     const int dimension = app.session.meshes().dimension;
     const ImVec2 c = at(projection(to_view(places[static_cast<std::size_t>(i)].position) + row_offset(i, dimension, projection)));
     const Colour colour = dimension == 1 ? app.theme.palette.view : letter_colour(app, i);  // on the line, which has the body's colour
-    ImGui::GetWindowDrawList()->AddText(app.theme.small, app.theme.small->FontSize, {c.x - app.theme.px(4), c.y - app.theme.px(7)}, packed(colour), body_letter(i).c_str());
+    body_name(app, c, body_letter(i), colour);
   }
 }
 
@@ -151,7 +158,14 @@ std::string subtitle_of(App& app, const Shown& shown) {
   if (shown.other && app.session.step() != app.session.other_step()) return (app.session.step() > app.session.other_step() ? "has ended at step " : "ends later, at step ") + std::to_string(app.session.other_step());
   if (shown.world && app.session.meshes().bodies.size() < 2) return "a body alone";
   if (shown.world) return app.session.meshes().bodies.size() > 2 ? "the bodies; in colour the two that are looked at" : "the two bodies and their supports";
-  return app.session.meshes().radius > 0 ? "of the cores; yellow ring: the sum of the radii" : "simplex, direction, support plane, polytope";
+  if (app.session.meshes().radius > 0) return "of the cores; yellow ring: the sum of the radii";
+  switch (shown.other ? app.session.other().settings.name : app.session.recording().settings.name) {
+    case MethodName::sat: return "every axis that could separate it from O";
+    case MethodName::mpr: return "from a point inside, through O, out to the portal";
+    case MethodName::closed_form: return "of two segments, a parallelogram";
+    case MethodName::projections: return "v, the difference of the two points";
+    default: return "simplex, direction, support plane, polytope";
+  }
 }
 
 void link_cameras(App& app, bool from_world) {

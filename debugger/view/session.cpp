@@ -262,12 +262,10 @@ void Session::toggle_breakpoint() {
   if (breakpoints.erase(step_) == 0) breakpoints.insert(step_);
 }
 
-void Session::add_bookmark() {
+bool Session::add_bookmark() {
   for (int i = 1; i <= 9; ++i)
-    if (!bookmarks.contains(i)) {
-      bookmarks[i] = step_;
-      return;
-    }
+    if (!bookmarks.contains(i)) return bookmarks[i] = step_, true;
+  return false;
 }
 
 /// A warm start goes on from the simplex that is shown, as long as its points are of the bodies.

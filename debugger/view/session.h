@@ -57,7 +57,7 @@ class Session {
   bool stops_at(std::size_t step) const { return breakpoints.contains(step) || stop_when.holds(recording_, findings_, step); }
   std::map<int, std::size_t> bookmarks;
   void toggle_breakpoint();
-  void add_bookmark();
+  bool add_bookmark();  ///< false: all nine are taken
 
   // --- Comparing: another run beside this one, at the same step ------------------------------------------------------
   /// The same scene by another method, solved again with every edit. The message of what is wrong; empty when it is shown.

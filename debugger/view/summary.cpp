@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "debugger/render/step_pictures.h"
 #include "debugger/view/explain.h"
 
 namespace gjkdbg {
@@ -55,8 +56,6 @@ bool of_two_boxes(const Recording& recording, std::size_t step) {
     if (const auto* began = std::get_if<recorded::SatBegan>(&recording.events[i])) return dimension > 1 && began->faces_a == dimension && began->faces_b == dimension;
   return false;
 }
-
-std::string body_letter(int body) { return body < 26 ? std::string(1, static_cast<char>('A' + body)) : std::to_string(body); }
 
 namespace {
 

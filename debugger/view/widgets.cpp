@@ -13,6 +13,8 @@ bool begin_area(const char* name, const Area& area, bool scrolls) {
                            ImGuiWindowFlags_AlwaysUseWindowPadding | (scrolls ? 0 : ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse));
 }
 
+bool begin_list(const char* name) { return ImGui::BeginChild(name, {0, 0}, false); }
+
 void section(const Theme& theme, const char* title) {
   ImGui::Dummy({0, theme.px(4)});
   ImGui::PushFont(theme.small);
@@ -33,21 +35,34 @@ std::string shortened(const ImFont* font, const std::string& text, float room) {
   return cut + "\xE2\x80\xA6";
 }
 
-void wrapped(const std::string& text, Colour colour) {
-  const float room = ImGui::GetContentRegionAvail().x;
-  std::string broken;
+namespace {
+
+/// Lines no wider than `room`, broken between words only (ImGui breaks after any point, that of a number, too); a word wider than that, an address, anywhere.
+std::string broken_into_lines(const std::string& text, float room) {
+  const auto width = [](const std::string& t) { return ImGui::CalcTextSize(t.c_str()).x; };
+  const float space = width(" ");
+  std::string lines;
   float used = 0;
   for (std::size_t i = 0; i < text.size();) {
-    const std::size_t end = std::min(text.find(' ', i), text.size());
-    const std::string word = text.substr(i, end - i);
-    const float width = ImGui::CalcTextSize(word.c_str()).x, space = broken.empty() ? 0 : ImGui::CalcTextSize(" ").x;
-    if (used > 0 && used + space + width > room) broken += '\n', used = 0;
-    else if (used > 0) broken += ' ', used += space;
-    broken += word, used += width;
+    const std::size_t end = std::min(text.find_first_of(" \n", i), text.size());
+    std::string word = text.substr(i, end - i);
+    if (used > 0 && used + space + width(word) > room) lines += '\n', used = 0;
+    else if (i > 0 && text[i - 1] == ' ' && !lines.empty() && used > 0) lines += ' ', used += space;
+    while (width(word) > room && word.size() > 1) {
+      std::size_t fit = 1;
+      while (fit + 1 < word.size() && (width(word.substr(0, fit + 1)) <= room || (word[fit] & 0xC0) == 0x80)) ++fit;
+      lines += word.substr(0, fit) + '\n', word.erase(0, fit);
+    }
+    lines += word, used += width(word);
+    if (end < text.size() && text[end] == '\n') lines += '\n', used = 0;
     i = end + 1;
   }
-  ImGui::TextColored(vec(colour), "%s", broken.c_str());
+  return lines;
 }
+
+}  // namespace
+
+void wrapped(const std::string& text, Colour colour) { ImGui::TextColored(vec(colour), "%s", broken_into_lines(text, ImGui::GetContentRegionAvail().x).c_str()); }
 
 void number_row(const Theme& theme, const char* label, const std::string& value, Colour colour) {
   const float left = ImGui::GetCursorPosX(), label_end = left + ImGui::CalcTextSize(label).x + theme.px(6);
@@ -62,9 +77,7 @@ void number_row(const Theme& theme, const char* label, const std::string& value,
 
 void tooltip(const Theme& theme, const std::string& text) {
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(theme.px(380));
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
+  ImGui::TextUnformatted(broken_into_lines(text, theme.px(372)).c_str());
   ImGui::EndTooltip();
 }
 
@@ -223,8 +236,8 @@ std::string result_text(const Recording& recording) {
   std::string text = r.intersecting ? "overlapping" : "apart";
   if (r.signed_distance) {
     const double d = *r.signed_distance;
-    const std::string at_most = unproven(r) ? "at most " : "";
-    text = d > 0 ? "apart, distance " + at_most + short_number(d) : d == 0 ? "touching" : "overlapping, depth " + at_most + short_number(-d);
+    const bool proven = !unproven(r);
+    text = d > 0 ? "apart, distance " + (proven ? short_number(d) : "at most " + short_number(*r.upper_bound)) : d == 0 ? "touching" : "overlapping, depth " + (proven ? short_number(-d) : "at most " + short_number(-*r.lower_bound));
     if (recording.scene.scene.query == Query::distance && r.intersecting) text = "overlapping";
   }
   return text;

@@ -113,6 +113,28 @@ TEST(Contact, LinesAlongOneAnotherShareAPieceAndAcrossAPoint) {
   EXPECT_EQ(contacts(along_x(capsule, "[0, 0, 0]"), placed(capsule, "[0, 0.35, 0]", R"({"axis": [1, 0, 0], "angle": 90})")).size(), 1U) << "across";
 }
 
+/// In the plane a capsule that stands on a long one, or leans by ten degrees, has one point below its lower end; none inside it. Lying it has two.
+TEST(Contact, ARoundedEdgeTouchesWithItsSurface) {
+  const auto flat = [](const std::string& shape, const std::string& position, double angle) { return R"({"shape": )" + shape + R"(, "pose": {"position": )" + position + R"(, "rotation": {"angle": )" + std::to_string(angle) + "}}}"; };
+  const std::string ground = flat(R"({"type": "capsule", "radius": 0.5, "half_height": 9, "axis": "x"})", "[0, 0]", 0), short_one = R"({"type": "capsule", "radius": 0.5, "half_height": 0.5})";
+  for (const double angle : {0.0, 10.0, 30.0, 89.0, 90.0})
+    for (const bool swapped : {false, true}) {
+      const std::string leaning = flat(short_one, "[0, 0.3]", angle);
+      SceneFile file = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 2, "query": "contact", "bodies": [)" + (swapped ? leaning + ", " + ground : ground + ", " + leaning) + "]}", {});
+      const Recording recording = record(file);
+      for (const Finding& finding : check(recording)) ADD_FAILURE() << finding.code << ": " << finding.message;
+      const auto& found = recording.result.contacts.value();
+      if (angle == 0 || angle == 90) {
+        EXPECT_EQ(found.size(), angle == 0 ? 1u : 2u);
+      }
+      const double turn = angle * M_PI / 180;
+      for (const ContactPoint& c : found) {  // how far from the core, a segment of half length 0.5 around (0, 0.3)
+        const Eigen::Vector2d x = Eigen::Vector2d(swapped ? c.point_a : c.point_b) - Eigen::Vector2d(0, 0.3), axis(-std::sin(turn), std::cos(turn));
+        EXPECT_NEAR((x - axis * std::clamp(x.dot(axis), -0.5, 0.5)).norm(), 0.5, 1e-9) << angle << " swapped " << swapped;
+      }
+    }
+}
+
 /// Cylinders, cones and boxes, faces flat on one another or not, with margins: every point lies in both bodies and no deeper than they are (`check`).
 TEST(Contact, EveryPointLiesInBothBodies) {
   RandomScenes random(7);

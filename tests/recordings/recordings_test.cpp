@@ -143,6 +143,21 @@ TEST(Codec, HundredThousandEvents) {
   EXPECT_EQ(again.events.size(), recording.events.size());
 }
 
+/// What a file tells beyond what was asked for is no part of a run.
+TEST(Verify, FindsWhatARunLeavesOut) {
+  Recording asked = record(read_scene(gallery().file("2d-intersect-only")));
+  EXPECT_FALSE(verify(asked));
+  asked.result.signed_distance = 3.0, asked.result.normal = AnyVector(Eigen::Vector2d(1, 0)), asked.result.pair = {0, 1};
+  const auto difference = verify(asked);
+  ASSERT_TRUE(difference);
+  EXPECT_EQ(difference->what, "result");
+  EXPECT_EQ(difference->fields, (std::vector<std::string>{"normal", "pair", "signed_distance"}));
+  Recording miss = record(read_scene(gallery().file("cast-receding")));
+  EXPECT_FALSE(verify(miss));
+  miss.result.lower_bound = 1.0;
+  EXPECT_TRUE(verify(miss));
+}
+
 TEST(Replay, SeekingEqualsPlaying) {
   const bool fewer = pairs_asked(20000) < 20000;
   for_gallery([&](const SceneFile& file) {
