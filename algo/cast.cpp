@@ -7,6 +7,7 @@
 
 #include "algo/cast_meeting.h"
 #include "algo/motion.h"
+#include "algo/moving_bodies.h"
 #include "algo/ray_cast.h"
 #include "algo/root_finding.h"
 #include "algo/working_scale.h"
@@ -15,13 +16,11 @@
 namespace gjkdbg {
 namespace {
 
-constexpr int most_responses = 64;
-
-class Caster {
+class Caster : MovingBodies {
  public:
   Caster(const Scene& scene, const Settings& settings, TraceSink* trace)
-      : scene_(scene), settings_(settings), inner_(static_settings(settings)), trace_(trace), dimension_(scene.dimension), bodies_(scene.bodies) {
-    for (const Body& body : bodies_) reach_.push_back(reach_of(body.shape, dimension_)), parts_.push_back(convex_parts(body.shape));
+      : MovingBodies(scene), scene_(scene), settings_(settings), inner_(static_settings(settings)), trace_(trace) {
+    for (const Body& body : bodies_) parts_.push_back(convex_parts(body.shape));
     double size = 0;
     for (const double r : reach_) size = std::max(size, r);
     for (const Body& body : bodies_) size = std::max(size, (body.pose.position - bodies_[0].pose.position).norm());
@@ -55,11 +54,6 @@ class Caster {
     if (trace_) (*trace_)(world::CastBegan{edges});
   }
 
-  const AnyVector& velocity(int i) const { return bodies_[static_cast<std::size_t>(i)].motion->velocity; }
-  const AnyVector& spin(int i) const { return bodies_[static_cast<std::size_t>(i)].motion->angular_velocity; }
-  bool turns(int i) const { return spin(i).size() > 0 && !spin(i).isZero(0); }
-  bool moves_against(int i, int j) const { return turns(i) || turns(j) || velocity(i) != velocity(j); }
-
   /// From the bodies' places at `start` (of the whole interval) until two of them meet or the interval ends.
   Meeting advance(double start) {
     start_ = start;
@@ -78,7 +72,7 @@ class Caster {
           continue;
         }
         const Gap gap = gap_of(p, time);
-        if (!gap.known && gap.distance > target_) return {CastStatus::iteration_limit, time, {-1, -1, nullptr, nullptr}, {}};  // no step from here is safe
+        if (!gap.known) return at_limit(p, time, gap);
         if (gap.distance <= target_) {
           // A pair that only slides along another does not meet it.
           if (gap.closing <= sliding_ * speed(p) && (gap.distance > 0 || start_ > 0)) {
@@ -97,12 +91,20 @@ class Caster {
         if (safe < next) next = safe, nearest = &p;
       }
       if (!nearest || !(next > time)) {
-        if (nearest) return {CastStatus::hit, time, *nearest, gap_of(*nearest, time)};  // time no longer advances: rounding
+        if (nearest) meeting = {CastStatus::hit, time, *nearest, gap_of(*nearest, time)};  // time no longer advances: rounding
+        if (nearest) return meeting.gap.known ? meeting : at_limit(*nearest, time, meeting.gap);
         meeting.status = CastStatus::miss, meeting.time = 1 - start;
         return meeting;
       }
       time = next;
     }
+    return {CastStatus::iteration_limit, time, {-1, -1, nullptr, nullptr}, {}};
+  }
+
+  /// GJK or EPA came to its limit. That the bodies overlap at the beginning is an answer all the same, where it is proven. Nothing else is: no step
+  /// from here is safe, and whether bodies that touch approach, slide or recede hangs on a normal that is not known.
+  Meeting at_limit(const Pair& p, double time, const Gap& gap) const {
+    if (time == 0 && start_ == 0 && gap.distance <= 0 && gap.at_most <= target_) return {CastStatus::initially_overlapping, 0, p, gap};
     return {CastStatus::iteration_limit, time, {-1, -1, nullptr, nullptr}, {}};
   }
 
@@ -116,28 +118,10 @@ class Caster {
       if (closing(p, n) > sliding_ * speed(p)) continue;
       const Scene two = pair_at(p, 0);
       const WorldSupport a(two.bodies[0], dimension_), b(two.bodies[1], dimension_);
-      supports_ += 2;
+      ++supports_;
       if (n.dot(b(-n, true) - a(n, true)) > 0) return true;
     }
     return false;
-  }
-
-  double speed(const Pair& p) const {
-    double s = velocity(p.first).norm() + velocity(p.second).norm();
-    for (const int i : {p.first, p.second}) s += spin(i).norm() * reach_[static_cast<std::size_t>(i)];
-    return s;
-  }
-
-  Scene pair_at(const Pair& p, double time) const {
-    Scene two;
-    two.dimension = dimension_;
-    two.query = Query::penetration;
-    for (const int i : {p.first, p.second}) {
-      const Body& body = bodies_[static_cast<std::size_t>(i)];
-      two.bodies.push_back(moved(Body{body.name, i == p.first ? *p.shape_a : *p.shape_b, body.pose, body.motion}, time, dimension_));
-      two.bodies.back().motion.reset();
-    }
-    return two;
   }
 
   /// GJK at a time, in the trace, and how fast the gap closes at most.
@@ -146,15 +130,17 @@ class Caster {
     const Result r = solve_static(two, inner_, trace_, numbers_, &simplices_[{p.shape_a, p.shape_b}]);
     numbers_.next_run();
     supports_ += r.support_calls;
-    Gap gap{*r.signed_distance, *r.normal, *r.witness_a, *r.witness_b};
-    gap.known = r.status != word_of(GjkStatus::iteration_limit), gap.bound = gap.closing = closing(p, gap.normal);
+    Gap gap = gap_from(p, r);
     if (settings_.name != MethodName::root_finding) gap.bound = bound_from_here(p, two, gap);
-    if (trace_ && (gap.known || gap.distance <= target_)) (*trace_)(world::CastAdvanced{iterations_, start_ + time, {p.first, p.second}, gap.distance, gap.normal, gap.bound});
+    if (trace_ && gap.known) (*trace_)(world::CastAdvanced{iterations_, start_ + time, {p.first, p.second}, gap.distance, gap.normal, gap.bound});
     return gap;
   }
 
-  double closing(const Pair& p, const AnyVector& n) const {
-    return (velocity(p.first) - velocity(p.second)).dot(n) + sideways(p.first, n) + sideways(p.second, n);
+  Gap gap_from(const Pair& p, const Result& r) const {
+    Gap gap{*r.signed_distance, *r.normal, *r.witness_a, *r.witness_b};
+    gap.known = r.status != word_of(GjkStatus::iteration_limit), gap.at_most = *r.upper_bound;  // EPA's limit is called the same
+    gap.bound = gap.closing = closing(p, gap.normal);
+    return gap;
   }
 
   /// How fast the gap closes at most until it can be closed. Near the top of its arc a rod hardly rises; |w| times its reach would not know.
@@ -167,15 +153,6 @@ class Caster {
       sum.speed += one.speed, sum.change += one.change, supports_ += turns(i);
     }
     return std::min(gap.closing, sum.until_closed(gap.distance));
-  }
-
-  /// |w x n| times the reach; in the plane w is across n.
-  double sideways(int i, const AnyVector& n) const {
-    if (!turns(i)) return 0;
-    const double reach = reach_[static_cast<std::size_t>(i)];
-    if (dimension_ == 2) return std::abs(spin(i)[0]) * reach;
-    const Eigen::Vector3d w = spin(i), n3 = n;
-    return w.cross(n3).norm() * reach;
   }
 
   /// Root finding: for how long from now the gap stays open, along this normal or one that turns on.
@@ -244,8 +221,9 @@ class Caster {
     if (m.status == CastStatus::miss) return m;
     // The places and the normal at that time, by GJK: the ray's own are as exact as its last plane.
     const Result r = solve_static(pair_at(p, m.time), inner_, nullptr, numbers_);
-    m.gap = {*r.signed_distance, *r.normal, *r.witness_a, *r.witness_b};
-    m.gap.bound = m.gap.closing = closing(p, m.gap.normal);
+    supports_ += r.support_calls;
+    m.gap = gap_from(p, r);
+    if (!m.gap.known && m.status == CastStatus::hit) m.status = CastStatus::iteration_limit;
     return m;
   }
 
@@ -324,13 +302,6 @@ class Caster {
     (*trace_)(world::State{now, views, 0, AnyVector::Zero(dimension_)});
   }
 
-  std::vector<FinalState> states() const {
-    std::vector<FinalState> list;
-    for (const Body& b : bodies_)
-      list.push_back({b.pose.position, orientation_of(b.pose.matrix), b.motion->velocity, in_degrees(b.motion->angular_velocity)});
-    return list;
-  }
-
   // --- The answer --------------------------------------------------------------------------------------------------------------
 
   /// The first meeting is the answer; what follows are responses.
@@ -340,18 +311,22 @@ class Caster {
   }
 
   /// A time at which the pair certainly touches: now, or a little later, and if that is too little, a little more.
-  std::optional<double> surely_touching(const Meeting& m) const {
+  std::optional<double> surely_touching(const Meeting& m) {
     const double first = std::max(2 * m.gap.distance / std::max(m.gap.bound, 1e-300), 4e-16);
     double step = 0;
     for (int k = 0; k < 60 && m.time + step <= 1; ++k, step = std::max(first, 2 * step)) {
       TraceNumbers unused;
-      if (*solve_static(pair_at(m.pair, m.time + step), inner_, nullptr, unused).upper_bound <= 0) return m.time + step;
+      const Result r = solve_static(pair_at(m.pair, m.time + step), inner_, nullptr, unused);
+      supports_ += r.support_calls;
+      if (*r.upper_bound <= 0) return m.time + step;
     }
     return std::nullopt;
   }
 
   void ended(const Meeting& m) {
     if (!trace_) return;
+    if (m.status == CastStatus::initially_overlapping && !m.gap.known)
+      (*trace_)(world::Warning{"way-out-unknown", "The bodies overlap, which is proven. The search for the nearest way out came to its limit: the result has no normal and no witness points."});
     std::vector<int> pair;
     if (m.pair.first >= 0 && m.status != CastStatus::miss) pair = {m.pair.first, m.pair.second};
     (*trace_)(world::CastEnded{iterations_, m.status, m.time, pair});
@@ -365,6 +340,8 @@ class Caster {
     r.time = first_.time, r.touching_at = touching_at_;
     if (r.intersecting) {
       r.pair = {first_.pair.first, first_.pair.second};
+    }
+    if (r.intersecting && first_.gap.known) {
       r.normal = first_.gap.normal, r.witness_a = first_.gap.witness_a, r.witness_b = first_.gap.witness_b;
     }
     if (responded_) r.bodies = states();
@@ -379,9 +356,6 @@ class Caster {
   const Settings inner_;
   std::map<std::pair<const Shape*, const Shape*>, std::vector<SimplexPoint>> simplices_;  ///< of Start::previous
   TraceSink* trace_;
-  const int dimension_;
-  std::vector<Body> bodies_;
-  std::vector<double> reach_;
   double target_ = 0, start_ = 0;
   std::vector<std::vector<Shape>> parts_;
   std::vector<Pair> pairs_;

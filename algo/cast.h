@@ -18,6 +18,9 @@
 // two moved bodies, is followed to where it closes, and along one that turns on as the last two
 // did; the longer counts (algo/root_finding.h). Only then GJK is asked for a new n.
 //
+// Where GJK or EPA comes to its limit, normal and distance are not known: no step from there is safe, and the cast ends at its own limit. An overlap at
+// the beginning is told all the same when it is proven, without a normal.
+//
 // Ray cast (van den Bergen, "Ray Casting against General Convex Objects", 2004): bodies that do not turn meet at time t when t (vB - vA)
 // lies in A - B; GJK walks along that ray. See algo/ray_cast.h.
 #pragma once
@@ -25,6 +28,8 @@
 #include "algo/solve.h"
 
 namespace gjkdbg {
+
+inline constexpr int most_responses = 64;  ///< then a cast ends at the next impact
 
 /// `scene.query` is cast. The times are of [0, 1]; `trace` may be null.
 Result cast(const Scene& scene, const Settings& settings, TraceSink* trace);

@@ -21,7 +21,8 @@ struct Gap {
   AnyVector normal, witness_a, witness_b;
   double closing = 0;  ///< how fast it closes at most along the normal, whichever way the bodies turn
   double bound = 0;    ///< how fast until they can meet; at most `closing`
-  bool known = true;   ///< false: GJK came to its limit, and the distance may be less
+  bool known = true;   ///< false: GJK or EPA came to its limit; the distance may be less, the depth too, and the normal another
+  double at_most = 0;  ///< the distance
 };
 
 /// What a body was turned off by.

@@ -36,14 +36,15 @@ struct Result {
   std::optional<double> lower_bound, upper_bound;
   std::optional<std::vector<ContactPoint>> contacts;
   // Of a cast: the bodies are surely apart until `time` and surely touch at `touching_at` (unset when they graze by less than can be told);
-  // normal and witnesses are those at `time`, of bodies that meet. Of a simulation: the time reached.
+  // normal and witnesses are those at `time`, of bodies that meet; unset where they overlap at the beginning and the search for the way out came to
+  // its limit. Of a simulation: the time reached.
   std::optional<double> time, touching_at;
   std::optional<std::array<int, 2>> pair;           ///< the bodies that meet
   std::optional<std::vector<FinalState>> bodies;    ///< after responses, or at the end of a simulation
   std::optional<double> energy;                     ///< of a simulation, at the end
   std::string status;  ///< of the phase that gave the answer; "aborted": there is none, `intersecting` means nothing
   int iterations = 0;
-  int support_calls = 0;
+  int support_calls = 0;  ///< all of them, those outside the trace too
 };
 
 /// Whether there is neither a yes nor a no: a limit came first, and what is known leaves both open. `intersecting` is false then, and means nothing.

@@ -21,7 +21,7 @@ RootFinding::RootFinding(Body a, Body b, double reach_a, double reach_b, int dim
 double RootFinding::open_along(const AnyVector& n, double ahead) {
   const Body at_a = moved(a_, time_ + ahead, dimension_), at_b = moved(b_, time_ + ahead, dimension_);
   const WorldSupport a(at_a, dimension_), b(at_b, dimension_);
-  supports_ += 2;
+  ++supports_;
   return n.dot(b(-n, true) - a(n, true));
 }
 

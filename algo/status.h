@@ -47,7 +47,7 @@ constexpr std::string_view word_of(MprStatus x) { return mpr_status_names[static
 enum class CastStatus {
   hit,                    ///< they meet; at `time` they are still apart, by no more than the tolerance times the scene's size, or as near as rounding lets it come
   miss,                   ///< they do not meet in the interval
-  initially_overlapping,  ///< they overlap at the beginning
+  initially_overlapping,  ///< they overlap at the beginning, which is proven; the way out may not be known (algo/cast.h)
   at_rest,                ///< after responses: nothing moves any more (of the event cast_ended; a result has the status of the first meeting)
   iteration_limit,        ///< apart until `time`; no more is known
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "algo/motion.h"
 #include "recordings/check_context.h"
@@ -262,6 +263,24 @@ struct Walk {
 
 }  // namespace
 
+std::vector<Finding> check_steps(const Recording& run, std::size_t first) {
+  CheckContext context(run);
+  TraceCheck trace(context);
+  Walk walk(context);
+  RecordCheck record(context);
+  bool any = false;
+  for (std::size_t i = first; i < run.events.size(); ++i) {
+    context.step = i;
+    const Event& event = run.events[i];
+    if (const auto given = given_vertex(event); given && !std::exchange(any, true)) record.goes_on(given->vertex);
+    trace.order(event);
+    std::visit(walk, event);
+    trace.values(event);
+    record(event);
+  }
+  return context.take();
+}
+
 std::vector<Finding> check(const Recording& recording) {
   CheckContext context(recording);
   TraceCheck trace(context);
@@ -281,6 +300,7 @@ std::vector<Finding> check(const Recording& recording) {
   const Query query = recording.scene.scene.query;
   if (query == Query::cast || query == Query::simulate) {
     query == Query::cast ? check_cast(context) : check_simulation(context);
+    check_runs(context);
     record.motion();
     return context.take();
   }

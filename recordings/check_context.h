@@ -276,6 +276,7 @@ class RecordCheck {
   /// After every other check of the event: what those find is nearer to the cause.
   void operator()(const Event& event);
   void result();
+  void goes_on(int first) { newest_ = first - 1; }  ///< a run inside a motion has its vertices numbered from there
   void motion();  ///< the counts of a cast's or a simulation's result
 
  private:
@@ -366,6 +367,19 @@ class OrderCheck {
 
 /// The answer against our own.
 void check_result(CheckContext& context, double best_plane);
+/// The steps of one run inside a motion, as of a recording of its two bodies at rest: events before `first` stand for nothing.
+std::vector<Finding> check_steps(const Recording& run, std::size_t first);
+/// Whether the run that a contact comes from came to its limit: GJK's distance along its normal is then less than it says, EPA's points may lie beside the bodies.
+struct RunEnds {
+  bool gjk_at_limit, epa_at_limit;
+};
+RunEnds ends_before(const CheckContext& context, std::size_t contact);
+/// A contact of a simulation, of two bodies where they are then.
+void check_contact(CheckContext& context, const Scene& two, const recorded::ContactFound& contact);
+/// The runs of GJK and EPA inside a motion, each by itself.
+void check_runs(CheckContext& context);
+/// The steps of a cast.
+void check_cast_steps(CheckContext& context);
 /// A cast: whether bodies meet, when, which, how, and where they end.
 void check_cast(CheckContext& context);
 /// A simulation: energy, momentum, sinking, and whether states follow from one another.

@@ -83,8 +83,9 @@ void OrderCheck::operator()(const Event& event) {
   const bool second = before_ == "gjk_ended" && step == "mpr_began" && c_.recording.settings.penetration == Penetration::mpr;
   const bool answered = casting_ && !second && ends_query(before_) && (begins_query(step) || step == "state" || step == "contact_found" || step == "impulse_applied");  // a cast goes on with its own step
   const auto* end = std::get_if<recorded::CastEnded>(&event);
+  const bool unknown = (casting_ && step == "warning" && (ends_query(before_) || before_ == "support_queried of cast")) || (before_ == "warning" && step == "cast_ended");  // that the way out is not known is said before the cast ends
   const bool given_up = end && end->status == CastStatus::iteration_limit && ends_query(before_);  // a run came to its limit: no step from there is safe
-  if (!unkept && !given_up && (!may_follow(before_, step) || answered))
+  if (!unkept && !given_up && !unknown && (!may_follow(before_, step) || answered))
     c_.find("inconsistent", "\"" + step + "\" comes after " + (before_ == start ? before_ : "\"" + before_ + "\"") + ", where no step of ours leads to it. A step is missing here, or one too many.", Finding::Severity::warning);
   earlier_ = std::exchange(before_, step);
 }

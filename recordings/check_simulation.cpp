@@ -7,6 +7,7 @@
 
 #include "algo/motion.h"
 #include "recordings/check_context.h"
+#include "recordings/free_spin.h"
 #include "shapes/mass.h"
 
 namespace gjkdbg {
@@ -50,7 +51,33 @@ struct SimulationCheck {
     return m;
   }
 
-  /// Over a step energy may change by what its order leaves, of the fall m (g h)^2 a body, and restitution only takes. Bodies inside each
+  /// Of the body in its own axes. In the plane it turns about the axis across.
+  M3 inertia(std::size_t i) const {
+    const M3 all = of(i).mass * mass[i].inertia;
+    return scene.dimension == 2 ? M3(V3(0, 0, all(2, 2)).asDiagonal()) : all;
+  }
+  V3 angular_momentum(const Moving& m, std::size_t i) const { return m.rotation * inertia(i) * m.rotation.transpose() * m.spin; }
+
+  /// What the integrator may add to the spins' energy in a step: bodies turn with the angular momentum that the impulses leave.
+  double gained_by_spin(const recorded::State& before, const recorded::State& now) const {
+    double sum = 0;
+    if (scene.dimension < 3 || now.bodies.size() != scene.bodies.size() || before.bodies.size() != scene.bodies.size()) return 0;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+      if (!of(i).is_static) sum += spin_gain(moving(before, i).rotation, inertia(i), angular_momentum(moving(now, i), i), motion.time_step, motion.integrator);
+    return sum;
+  }
+
+  /// As many digits as it takes to tell two numbers apart.
+  static std::pair<std::string, std::string> told_apart(double x, double y) {
+    char one[40], other[40];
+    for (int digits = 6; digits <= 17; ++digits) {
+      std::snprintf(one, sizeof one, "%.*g", digits, x), std::snprintf(other, sizeof other, "%.*g", digits, y);
+      if (std::string_view(one) != other) break;
+    }
+    return {one, other};
+  }
+
+  /// Over a step energy may change by what its order leaves, of the fall m (g h)^2 a body and of the spin what free_spin.h bounds, and restitution only takes. Bodies inside each
   /// other are put apart, which may lift them by as much as they are deep.
   void states() const {
     const SceneMotion& m = motion;
@@ -74,8 +101,9 @@ struct SimulationCheck {
       if (!now) continue;
       if (before) {
         const double speed = std::sqrt(std::max(0.0, 2 * std::abs(before->energy) * std::max(total, 1e-300)));
-        if (now->energy > before->energy + 4 * fall + 1e-6 * std::abs(before->energy) + (touched ? m.gravity.norm() * total * (0.01 * c.size + deepest) : 0))
-          c.find("energy-gained", "Energy rose from " + text_of(before->energy) + " to " + text_of(now->energy) + " between times " + text_of(before->time) + " and " + text_of(now->time) + ".");
+        const double most = before->energy + 4 * fall + 1e-6 * std::abs(before->energy) + (touched ? m.gravity.norm() * total * (0.01 * c.size + deepest) : 0);
+        if (const auto [was, is] = told_apart(before->energy, now->energy); now->energy > most && now->energy > most + gained_by_spin(*before, *now))
+          c.find("energy-gained", "Energy rose from " + was + " to " + is + " between times " + text_of(before->time) + " and " + text_of(now->time) + ".");
         const AnyVector expected = before->momentum + total * m.time_step * m.gravity;
         if (!(walls && touched) && (now->momentum - expected).norm() > 1e-9 * (speed + total * m.gravity.norm() * m.time_step) + 1e-12)
           c.find("momentum-lost", "Momentum went from " + text_of(before->momentum) + " to " + text_of(now->momentum) + ", expected " + text_of(expected) + ": nothing but gravity acts on these bodies from outside.");
@@ -153,10 +181,7 @@ struct SimulationCheck {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
       if (of(i).is_static) continue;
       const Moving m = moving(state, i);
-      M3 inertia = of(i).mass * mass[i].inertia;
-      if (scene.dimension == 2) inertia = V3(0, 0, inertia(2, 2)).asDiagonal();
-      const V3 spin = m.rotation.transpose() * m.spin;
-      const double moves = of(i).mass * m.velocity.squaredNorm() / 2, turns = spin.dot(inertia * spin) / 2, falls = -of(i).mass * gravity.dot(m.place);
+      const double moves = of(i).mass * m.velocity.squaredNorm() / 2, turns = m.spin.dot(angular_momentum(m, i)) / 2, falls = -of(i).mass * gravity.dot(m.place);
       energy += moves + turns + falls, scale += moves + std::abs(turns) + std::abs(falls);
       momentum += of(i).mass * m.velocity, speed += of(i).mass * m.velocity.norm();
     }
@@ -186,7 +211,10 @@ struct SimulationCheck {
     apart(before, steps);
     for (const std::size_t step : steps) {
       c.step = step;
-      if (const auto* contact = std::get_if<recorded::ContactFound>(&c.recording.events[step])) judge(*contact, "A contact"), contacts.push_back(contact);
+      if (const auto* contact = std::get_if<recorded::ContactFound>(&c.recording.events[step])) {
+        judge(*contact, "A contact"), contacts.push_back(contact);
+        if (!of_mesh(contact->pair)) check_contact(c, pair_at(before, contact->pair), *contact);
+      }
       const auto* e = std::get_if<recorded::ImpulseApplied>(&c.recording.events[step]);
       if (!e) continue;
       judge(*e, "An impulse");
@@ -195,6 +223,26 @@ struct SimulationCheck {
         if (contact->pair == e->pair && contact->point == e->point && (contact->normal - e->normal).norm() > 1e-9) c.find("wrong-normal", "The impulse at " + text_of(e->point) + " has the normal " + text_of(e->normal) + ", its contact " + text_of(contact->normal) + ".");
     }
     c.step = here;
+  }
+
+  bool of_mesh(const Edge& pair) const {
+    return std::any_of(pair.begin(), pair.end(), [&](int i) { return std::holds_alternative<Mesh>(scene.bodies[static_cast<std::size_t>(i)].shape.geometry); });
+  }
+
+  /// Two bodies where a state has them.
+  Scene pair_at(const recorded::State& state, const Edge& pair) const {
+    Scene two;
+    two.dimension = scene.dimension;
+    two.query = Query::penetration;
+    for (const int k : pair) {
+      const auto i = static_cast<std::size_t>(k);
+      Body body = scene.bodies[i];
+      body.motion.reset();
+      body.pose.position = state.bodies[i].position, body.pose.matrix = moving(state, i).rotation.topLeftCorner(scene.dimension, scene.dimension);
+      body.pose.rotation = RotationMatrix{body.pose.matrix};
+      two.bodies.push_back(std::move(body));
+    }
+    return two;
   }
 
   /// The deepest contact of two bodies is as deep as they overlap along its normal, from the first to the second, at the state before. Along a
@@ -208,21 +256,15 @@ struct SimulationCheck {
       }
     for (const auto& [pair, found] : deepest) {
       const auto& [step, contact] = found;
-      const auto placed = [&](int k) {
-        const auto i = static_cast<std::size_t>(k);
-        Body body = scene.bodies[i];
-        body.pose.position = before.bodies[i].position, body.pose.matrix = moving(before, i).rotation.topLeftCorner(scene.dimension, scene.dimension);
-        return body;
-      };
-      const Body first = placed(pair[0]), second = placed(pair[1]);
-      if (std::holds_alternative<Mesh>(first.shape.geometry) || std::holds_alternative<Mesh>(second.shape.geometry)) continue;
-      const WorldSupport a(first, scene.dimension), b(second, scene.dimension);
+      if (of_mesh({pair[0], pair[1]})) continue;
+      const Scene two = pair_at(before, {pair[0], pair[1]});
+      const WorldSupport a(two.bodies[0], scene.dimension), b(two.bodies[1], scene.dimension);
       const AnyVector& n = contact->normal;
       const double overlap = n.dot(a(n, true) - b(-n, true)), behind = n.dot(b(n, true) - a(-n, true));
       c.step = step;
       if (std::abs(behind - contact->depth) + 1e-6 * c.size < std::abs(overlap - contact->depth))
         c.find("flipped-normal", "Along the normal " + text_of(n) + " of the contact of bodies " + std::to_string(pair[0]) + " and " + std::to_string(pair[1]) + " they overlap by " + text_of(overlap) + ", against it by " + text_of(behind) + ", and the contact is " + text_of(contact->depth) + " deep: it leads from the second to the first.");
-      else if (!foreign(c.recording) && std::abs(overlap - contact->depth) > std::max({1e-6, 100 * c.digits(), c.stop}) * c.size)
+      else if (!foreign(c.recording) && !ends_before(c, step).gjk_at_limit && std::abs(overlap - contact->depth) > std::max({1e-6, 100 * c.digits(), c.stop}) * c.size)
         c.find("wrong-contact", "Along the normal " + text_of(n) + " bodies " + std::to_string(pair[0]) + " and " + std::to_string(pair[1]) + " overlap by " + text_of(overlap) + "; their contact is " + text_of(contact->depth) + " deep.");
     }
   }
@@ -258,6 +300,7 @@ struct SimulationCheck {
       }
       if (off > (fixed ? 0 : push) + 1e-9 * (speed * h + c.size) + 1e-12 * from.place.norm())
         c.find("wrong-state", "Body " + std::to_string(i) + " is " + text_of(off) + " from where its velocity takes it by time " + text_of(now.time) + ".");
+      if (!fixed && !touched && !foreign(c.recording)) keeps_spinning(from, to, i, now.time);
       for (const auto* e : impulses) {
         if (e->pair[0] != number && e->pair[1] != number) continue;
         const std::size_t which = e->pair[0] == number ? 0 : 1;
@@ -270,6 +313,23 @@ struct SimulationCheck {
         c.step = here;
       }
     }
+  }
+
+  /// Angular momentum is what nothing changes in flight; the angular velocity follows from it and from how the body is turned.
+  void keeps_spinning(const Moving& from, const Moving& to, std::size_t i, double time) const {
+    const V3 was = angular_momentum(from, i), is = angular_momentum(to, i);
+    const double scale = inertia(i).norm() * (from.spin.norm() + to.spin.norm());
+    if ((is - was).norm() > 1e-9 * scale + 1e-14)
+      c.find("momentum-lost", "The angular momentum of body " + std::to_string(i) + " went from " + text_of(AnyVector(was)) + " to " + text_of(AnyVector(is)) + " in the step to time " + text_of(time) + ", though nothing touched it.");
+  }
+
+  /// Where no method asks for more than it tells, all supports are steps.
+  void counts() {
+    const Settings& s = c.recording.settings;
+    const auto supports = std::count_if(c.recording.events.begin(), c.recording.events.end(), [](const Event& e) { return std::holds_alternative<recorded::SupportQueried>(e); });
+    if (foreign(c.recording) || c.recording.result.status != "completed" || s.penetration != Penetration::epa || s.name == MethodName::mpr || s.name == MethodName::sat) return;
+    if (c.recording.result.support_calls != supports)
+      c.find("inconsistent", "The result counts " + std::to_string(c.recording.result.support_calls) + " support calls, but " + std::to_string(supports) + " were made.", Finding::Severity::warning);
   }
 
   /// The result is the last state.
@@ -302,6 +362,7 @@ void check_simulation(CheckContext& c) {
   SimulationCheck judge(c);
   judge.walk();
   judge.states();
+  judge.counts();
 }
 
 }  // namespace gjkdbg

@@ -269,6 +269,12 @@ struct Apply {
         frame.pair = advanced->pair;
         return advance_to(advanced->time);
       }
+      if (const auto* ended = std::get_if<recorded::CastEnded>(&event)) {  // the run came to its limit, and the cast with it
+        advance_to(ended->time);
+        if (ended->pair.size() != 2) break;
+        frame.pair = {ended->pair[0], ended->pair[1]};
+        return;
+      }
       if (const auto* contact = std::get_if<recorded::ContactFound>(&event)) {
         frame.pair = contact->pair;
         return;

@@ -1,0 +1,250 @@
+// What check must not overlook in recordings of motions, one edit at a time, and what it must not take for wrong in our own.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+
+#include "recordings/check.h"
+#include "recordings/gallery.h"
+#include "tests/support/random_scenes.h"
+
+namespace gjkdbg {
+namespace {
+
+Recording of_gallery(const std::string& scene) { return record(read_scene(read_gallery(GJKDBG_GALLERY).file(scene))); }
+
+std::string told(const Recording& recording) {
+  std::string out;
+  for (const Finding& f : check(recording)) out += std::to_string(f.step) + " " + f.code + ": " + f.message + "\n";
+  return out;
+}
+
+template <class E>
+E& event_at(Recording& recording, std::size_t step) {
+  return std::get<E>(recording.events.at(step));
+}
+
+/// The step and the code of the first finding after an edit.
+std::string finding_after(const Recording& right, const std::function<void(Recording&)>& edit) {
+  Recording wrong = right;
+  edit(wrong);
+  const std::vector<Finding> findings = check(wrong);
+  return findings.empty() ? "none" : std::to_string(findings[0].step) + " " + findings[0].code;
+}
+
+AnyVector plane(double x, double y) { return Eigen::Vector2d(x, y); }
+
+TEST(CheckMotion, StepsAfterTheFirstResponse) {
+  const Recording right = of_gallery("cast-bounce");
+  ASSERT_EQ(told(right), "");
+  ASSERT_EQ(right.events.size(), 48U);
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastAdvanced>(r, 43).distance = -5; }), "43 wrong-distance");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastAdvanced>(r, 43).bound = -5; }), "43 inconsistent");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastAdvanced>(r, 35).normal *= -1; }), "35 wrong-normal");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastAdvanced>(r, 35).time += 0.01; }), "29 wrong-support") << "the run was about another time";
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::ImpulseApplied>(r, 25).normal = plane(0, 1); }), "25 flipped-normal");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::ImpulseApplied>(r, 44).point = plane(2, 99); }), "44 wrong-contact");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::ImpulseApplied>(r, 44).velocities_after[0][0] *= 0.5; }), "44 wrong-state");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::ImpulseApplied>(r, 44).time += 0.01; }), "44 tunnelling");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::ImpulseApplied>(r, 44).time -= 0.01; }), "44 wrong-time");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::State>(r, 26).energy = -77; }), "26 wrong-state");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::State>(r, 26).momentum = plane(3, 3); }), "26 wrong-state");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 47).pair = {0, 7}; }), "47 wrong-pair");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 47).pair = {0, 1}; }), "47 wrong-pair");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 47).status = CastStatus::hit; }), "47 wrong-pair");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 47).status = CastStatus::hit, event_at<recorded::CastEnded>(r, 47).pair = {0, 2}; }), "47 wrong-time");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 47).status = CastStatus::at_rest; }), "47 wrong-answer");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 47).status = CastStatus::initially_overlapping, event_at<recorded::CastEnded>(r, 47).pair = {0, 2}; }), "47 wrong-answer");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 47).time = 0.8; }), "47 wrong-time");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { r.result.support_calls = 99; }), "47 inconsistent");
+  // The second impact and all that follows from it left out: the ball goes on through the wall.
+  Recording through = right;
+  through.events.erase(through.events.begin() + 43, through.events.begin() + 46);
+  EXPECT_NE(told(through).find("tunnelling"), std::string::npos);
+}
+
+TEST(CheckMotion, RunsAreThoseOfBodiesAtRest) {
+  const Recording right = of_gallery("cast-bounce");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::GjkEnded>(r, 7).upper_bound = 50; }), "7 inconsistent");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::GjkEnded>(r, 34).lower_bound = 3; }), "34 wrong-bounds");
+  EXPECT_EQ(finding_after(right, [](Recording& r) {
+              auto& query = event_at<recorded::SupportQueried>(r, 37);
+              query.a += plane(0, 0.1), query.w += plane(0, 0.1);
+            }), "37 wrong-support");
+  Recording deep = of_gallery("cast-initially-overlapping");
+  const auto epa = [](const Event& e) { return std::holds_alternative<recorded::EpaEnded>(e); };
+  const auto step = static_cast<std::size_t>(std::find_if(deep.events.begin(), deep.events.end(), epa) - deep.events.begin());
+  ASSERT_LT(step, deep.events.size());
+  for (const double depth : {5.0, -1.0}) EXPECT_EQ(finding_after(deep, [&](Recording& r) { event_at<recorded::EpaEnded>(r, step).depth = depth; }), std::to_string(step) + (depth > 0 ? " wrong-depth" : " wrong-distance"));
+}
+
+TEST(CheckMotion, AnImpactIsWithinTheIntervalAndAMissHasNone) {
+  const Recording rod = of_gallery("cast-rotating-rod");
+  EXPECT_NE(finding_after(rod, [](Recording& r) { r.result.touching_at = 1e300; }).find("wrong-time"), std::string::npos);
+  const Recording miss = of_gallery("cast-receding");
+  ASSERT_EQ(told(miss), "");
+  for (const auto& claim : std::vector<std::function<void(Result&)>>{[](Result& r) { r.touching_at = 3; }, [](Result& r) { r.normal = plane(1, 0); }, [](Result& r) { r.witness_a = plane(9, 9); }, [](Result& r) { r.pair = {0, 1}; }}) {
+    Recording wrong = miss;
+    claim(wrong.result);
+    EXPECT_NE(told(wrong).find("Nothing is met by this result"), std::string::npos) << told(wrong);
+  }
+  EXPECT_NE(finding_after(rod, [](Recording& r) { r.result.normal.reset(), r.result.witness_a.reset(), r.result.witness_b.reset(); }).find("inconsistent"), std::string::npos);
+}
+
+TEST(CheckMotion, PlanesOfARayAreWhereTheBodiesAre) {
+  const Recording ray = of_gallery("cast-ray");
+  ASSERT_EQ(told(ray), "");
+  std::size_t planes = 0;
+  for (std::size_t i = 0; i < ray.events.size(); ++i) {
+    if (!std::holds_alternative<recorded::CastAdvanced>(ray.events[i])) continue;
+    ++planes;
+    const std::string step = std::to_string(i) + " ";
+    EXPECT_EQ(finding_after(ray, [&](Recording& r) { event_at<recorded::CastAdvanced>(r, i).distance *= -1; }), step + "wrong-distance");
+    EXPECT_EQ(finding_after(ray, [&](Recording& r) { event_at<recorded::CastAdvanced>(r, i).time += 0.01; }), step + "wrong-distance");
+    EXPECT_EQ(finding_after(ray, [&](Recording& r) { event_at<recorded::CastAdvanced>(r, i).bound *= 2; }), step + "inconsistent");
+  }
+  EXPECT_GT(planes, 0U);
+}
+
+TEST(CheckMotion, DepthsOfASimulation) {
+  const Recording right = of_gallery("sim-falling-box");
+  ASSERT_EQ(told(right), "");
+  int ends = 0, contacts = 0;
+  for (std::size_t i = 0; i < right.events.size(); ++i) {
+    const std::string step = std::to_string(i) + " ";
+    if (std::holds_alternative<recorded::EpaEnded>(right.events[i]) && ends++ < 3) {
+      for (const double depth : {5.0, -1.0}) EXPECT_EQ(finding_after(right, [&](Recording& r) { event_at<recorded::EpaEnded>(r, i).depth = depth; }), step + (depth > 0 ? "wrong-depth" : "wrong-distance"));
+    }
+    if (std::holds_alternative<recorded::ContactFound>(right.events[i]) && contacts++ < 8) {
+      for (const double off : {-1.0, -0.3, 0.3}) EXPECT_EQ(finding_after(right, [&](Recording& r) { event_at<recorded::ContactFound>(r, i).depth += off; }), step + "wrong-contact") << off;
+    }
+  }
+  EXPECT_GE(ends, 3);
+  EXPECT_GE(contacts, 8);
+  EXPECT_NE(finding_after(right, [](Recording& r) { r.result.support_calls += 1; }), "none");
+}
+
+std::string free_box(const std::string& half_extents, const std::string& spin, const std::string& integrator) {
+  return told(record(parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "simulate", "steps": 60, "integrator": ")" + integrator + R"(", "bodies": [
+    {"shape": {"type": "box", "half_extents": )" + half_extents + R"(}, "angular_velocity": )" + spin + "}]}", {})));
+}
+
+TEST(CheckMotion, AnIntegratorsOwnErrorIsNoGain) {
+  for (const char* integrator : {"semi-implicit-euler", "rk4"})
+    for (const char* spin : {"[100, 100, 100]", "[300, 200, 100]", "[96, -275, 263]", "[1000, 20, 3000]", "[1, 9000, 5000]", "[0.1, 0, 720]"})
+      for (const char* box : {"[0.2, 1, 0.6]", "[0.1, 0.12, 3]", "[1, 0.05, 1]"}) EXPECT_EQ(free_box(box, spin, integrator), "") << integrator << " " << spin << " " << box;
+}
+
+TEST(CheckMotion, TrueGainsOfASpinAreFound) {
+  const Recording right = record(parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "simulate", "steps": 8, "bodies": [
+    {"shape": {"type": "box", "half_extents": [0.2, 1, 0.6]}, "angular_velocity": [100, 100, 100]}]})", {}));
+  ASSERT_EQ(told(right), "");
+  // Turns a little faster from the fourth state on, and has the energy of it: 1e-4 of it in all, a hundred times what the step leaves.
+  Recording wrong = right;
+  const double faster = 1 + 5e-5;
+  int states = 0;
+  for (Event& e : wrong.events)
+    if (auto* state = std::get_if<recorded::State>(&e); state && states++ >= 4) {
+      state->energy *= faster * faster;
+      for (double& w : state->bodies[0].angular_velocity) w *= faster;
+    }
+  const std::string all = told(wrong);
+  EXPECT_NE(all.find("momentum-lost: The angular momentum of body 0"), std::string::npos) << all;
+  wrong.generator = "another";
+  for (const double gain : {1.02, 1.002}) {
+    Recording more = right;
+    more.generator = "another";
+    states = 0;
+    for (Event& e : more.events)
+      if (auto* state = std::get_if<recorded::State>(&e); state && states++ >= 4) {
+        state->energy *= gain * gain;
+        for (double& w : state->bodies[0].angular_velocity) w *= gain;
+      }
+    EXPECT_NE(told(more).find("energy-gained"), std::string::npos) << gain;
+  }
+}
+
+/// Its two numbers are not the same.
+TEST(CheckMotion, AGainIsToldInAsManyDigitsAsItTakes) {
+  Recording wrong = of_gallery("sim-newtons-cradle");
+  int states = 0;
+  for (Event& e : wrong.events)
+    if (auto* state = std::get_if<recorded::State>(&e); state && states++ == 3) state->energy *= 1 + 2e-6;
+  const std::string all = told(wrong);
+  const std::size_t from = all.find("Energy rose from ");
+  ASSERT_NE(from, std::string::npos) << all;
+  const std::size_t x = from + 17, to = all.find(" to ", x), y = to + 4;
+  EXPECT_NE(all.substr(x, to - x), all.substr(y, all.find(' ', y) - y)) << all;
+}
+
+Recording cast_by(SceneFile scene, MethodName method, int limit) {
+  scene.method.name = method;
+  scene.method.max_iterations = limit;
+  return record(scene);
+}
+
+/// A limit is a status. What is said all the same is proven, and check finds nothing in it.
+void expect_honest(const SceneFile& scene, MethodName method, int limit) {
+  const Recording recording = cast_by(scene, method, limit);
+  const Result& r = recording.result;
+  EXPECT_EQ(told(recording), "") << limit;
+  Scene start = scene.scene;
+  start.query = Query::penetration;
+  for (Body& b : start.bodies) b.motion.reset();
+  const Result right = solve(start, resolve_settings({}, start));
+  if (r.status != "initially_overlapping") return;
+  EXPECT_LE(*right.signed_distance, 1e-8) << limit;
+  if (!r.normal) {
+    EXPECT_FALSE(r.witness_a || r.witness_b);
+    const auto warned = [](const Event& e) { return std::holds_alternative<recorded::Warning>(e); };
+    EXPECT_TRUE(std::any_of(recording.events.begin(), recording.events.end(), warned));
+  }
+}
+
+TEST(CheckMotion, AnOverlapWhoseWayOutIsNotKnownIsClean) {
+  const SceneFile cylinders = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "cast", "bodies": [
+    {"shape": {"type": "cylinder", "radius": 1, "half_height": 2}, "velocity": [1, 0, 0]}, {"shape": {"type": "cylinder", "radius": 1, "half_height": 2}}]})", {});
+  const SceneFile ellipses = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 2, "query": "cast", "bodies": [
+    {"shape": {"type": "ellipse", "radii": [1, 0.5]}, "velocity": [1, 0]}, {"shape": {"type": "ellipse", "radii": [0.7, 1]}, "pose": {"position": [0.3, 0.2]}}]})", {});
+  for (const MethodName method : {MethodName::conservative_advancement, MethodName::root_finding, MethodName::ray_cast}) {
+    expect_honest(cylinders, method, 512);
+    EXPECT_EQ(cast_by(cylinders, method, 512).result.status, "initially_overlapping");
+    EXPECT_FALSE(cast_by(cylinders, method, 512).result.normal);
+    for (int limit = 1; limit <= 12; ++limit) expect_honest(ellipses, method, limit);
+    EXPECT_FALSE(cast_by(ellipses, method, 4).result.normal) << word_of(method);
+    EXPECT_TRUE(cast_by(ellipses, method, 512).result.normal) << word_of(method);
+  }
+}
+
+TEST(CheckMotion, CastsAtLowLimitsAreClean) {
+  RandomScenes random(91);
+  for (int k = 0; k < pairs_asked(1500); ++k) {
+    const int d = 2 + k % 2;
+    SceneFile file;
+    file.scene = random.scene(d, Family::general, true);
+    Scene& scene = file.scene;
+    scene.query = Query::cast;
+    scene.motion = SceneMotion{};
+    scene.motion->gravity = AnyVector::Zero(d);
+    scene.motion->response = static_cast<Response>(k % 3);
+    for (Body& b : scene.bodies) {
+      if (k % 4 == 0) b.pose.position *= 0.2;
+      b.motion = Motion{};
+      b.motion->velocity = AnyVector::Zero(d), b.motion->angular_velocity = AnyVector::Zero(d == 2 ? 1 : 3);
+      b.motion->restitution = 0.5;
+      for (double& x : b.motion->velocity) x = random.uniform(-6, 6);
+      if (k % 3 == 1)
+        for (double& x : b.motion->angular_velocity) x = random.uniform(-3, 3);
+    }
+    const MethodName method = k % 3 == 1 ? (k % 2 == 0 ? MethodName::conservative_advancement : MethodName::root_finding) : std::array{MethodName::conservative_advancement, MethodName::ray_cast, MethodName::root_finding}[static_cast<std::size_t>(k / 3 % 3)];
+    expect_honest(file, method, k % 5 == 0 ? 512 : 1 + k % 14);
+    if (testing::Test::HasFailure()) {
+      std::printf("scene %d\n", k);
+      return;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gjkdbg
