@@ -30,11 +30,13 @@ ViewPoint row_offset(int body, int dimension, const Projection& projection) {
   return {0, (body % 2 == 0 ? 0.3 : -0.3) * half_view(projection), 0};
 }
 
+char vertex_letter(std::ptrdiff_t place) { return static_cast<char>('P' + place); }
+
 std::string simplex_letter(const Frame& frame, int vertex, bool newest_first) {
   const auto found = std::find(frame.lettered.begin(), frame.lettered.end(), vertex);
   if (found == frame.lettered.end()) return {};
   const auto from_newest = found - frame.lettered.begin(), from_oldest = frame.lettered.end() - found - 1;
-  return std::string(1, static_cast<char>('A' + (newest_first ? from_newest : from_oldest)));
+  return std::string(1, vertex_letter(newest_first ? from_newest : from_oldest));
 }
 
 namespace {

@@ -40,8 +40,8 @@ struct Explain : ExplainMotion {
       if (!against) continue;
       std::string rest;
       for (const int k : against->part)
-        if (k != static_cast<int>(i)) rest += static_cast<char>('A' + k);
-      const char letter = static_cast<char>('A' + i);
+        if (k != static_cast<int>(i)) rest += vertex_letter(k);
+      const char letter = vertex_letter(static_cast<std::ptrdiff_t>(i));
       std::string part = rest + letter;
       std::sort(part.begin(), part.end());
       text += std::string("; \xCE\xBB") + letter + " = " + short_number(weight) + " in " + part + ": the origin lies beyond " + (rest.size() == 1 ? "" : feature_name(rest.size()) + " ") + rest;

@@ -15,7 +15,7 @@ struct Explanation {
 
 Explanation explain(const Recording& recording, const Frame& frame);
 
-/// One line for a list: "w = (…)", "B A → A".
+/// One line for a list: "w = (…)", "PQ → P".
 std::string summary(const Recording& recording, std::size_t step);
 
 struct PseudoCode {
@@ -35,7 +35,7 @@ bool of_two_boxes(const Recording& recording, std::size_t step);
 std::string body_name(const Recording& recording, int body);
 /// What a polytope's border consists of: "face"; in the plane "edge".
 std::string facet_name(const Recording& recording);
-/// Vertices as A, B, C, D: by their places in `order`.
+/// Vertices as P, Q, R, S: by their places in `order`.
 std::string letters(const std::vector<int>& vertices, const std::vector<int>& order);
 
 /// Short decimal: six significant digits.

@@ -30,7 +30,7 @@ std::string letters(const std::vector<int>& vertices, const std::vector<int>& or
   std::string out;
   for (const int v : vertices) {
     const auto at = std::find(order.begin(), order.end(), v);
-    out += at == order.end() ? "?" : std::string(1, static_cast<char>('A' + (at - order.begin())));
+    out += at == order.end() ? "?" : std::string(1, vertex_letter(at - order.begin()));
   }
   return out;
 }
