@@ -105,7 +105,7 @@ void regions(App& app) {
   const float right = ImGui::GetWindowContentRegionMax().x;
   for (const RegionTest& test : region_tests(points)) {
     std::string part, why;
-    for (const int i : test.part) part += static_cast<char>('A' + (app.settings.newest_first ? i : static_cast<int>(points.size()) - 1 - i));
+    for (const int i : test.part) part += vertex_letter(app.settings.newest_first ? i : static_cast<int>(points.size()) - 1 - i);
     const std::size_t least = static_cast<std::size_t>(std::min_element(test.weights.begin(), test.weights.end()) - test.weights.begin());
     if (!test.holds_projection) why = std::string("\xCE\xBB") + part[least] + " " + at_the_point(test.weights[least]);
     else why = at_the_point(test.distance);
@@ -278,6 +278,7 @@ std::string place_text(Session& session) {
 
 void step_panel(App& app, const Area& area) {
   if (!begin_area("step", area, true)) return ImGui::EndChild();
+  way_back(app);
   heading(app);
   scene_note(app);
   right_note(app);

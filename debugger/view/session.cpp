@@ -92,7 +92,7 @@ void Session::open(Recording recording, std::string title) {
 void Session::begin(std::string title) {
   title_ = std::move(title);
   undo_.clear(), redo_.clear(), breakpoints.clear(), bookmarks.clear();
-  loop_from.reset(), loop_to.reset();
+  loop_from.reset(), loop_to.reset(), waiting_.reset();
   stop_comparing();
   playing = false;
   step_ = 0;
@@ -137,36 +137,6 @@ std::string Session::compare_with(const Method& method, std::string title) {
   } catch (const Error& e) {
     return in_the_panels_words(e);
   }
-}
-
-void Session::solve_other() {
-  SceneFile scene = recording_.scene;
-  scene.method = *other_method_;
-  try {
-    Recording run = record(scene);
-    const std::optional<Method> method = other_method_;
-    compare_with(std::move(run), other_title_);
-    other_method_ = method;
-  } catch (const Error&) {
-    stop_comparing();  // the scene has become one that the other method does not take
-  }
-}
-
-void Session::compare_with(Recording recording, std::string title) {
-  if (recording.events.empty()) throw Error("no-events", "holds no events", "/events");
-  SceneMeshes meshes = scene_meshes(recording.scene.scene);
-  stop_comparing();
-  other_ = std::move(recording);
-  other_meshes_ = std::move(meshes);
-  other_replay_.emplace(other_);
-  other_title_ = std::move(title);
-  parting_ = (recording_.settings.scalar == other_.settings.scalar ? first_difference : first_other_way)(recording_, other_);
-}
-
-void Session::stop_comparing() {
-  other_replay_.reset();
-  other_method_.reset();
-  parting_.reset();
 }
 
 void Session::go_to(std::size_t step) { step_ = std::min(step, count() - 1); }

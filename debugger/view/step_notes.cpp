@@ -84,6 +84,7 @@ void beside_note(App& app) {
   ImGui::TextWrapped("%s: %s", short_kind(s.other().events[k]), summary(s.other(), k).c_str());
   ImGui::PopStyleColor();
   wrapped(parting_text(s), theme.palette.text_soft);
+  if (const std::string ending = ending_text(s); !ending.empty()) wrapped(ending, theme.palette.text_soft);
   if (answers_agree(s.recording().result, s.other().result)) wrapped("the answers agree", theme.palette.support);
   number_row(theme, "its answer", result_text(s.other()), theme.palette.text_soft);
 }
