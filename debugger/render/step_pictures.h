@@ -52,6 +52,8 @@ Picture difference_picture(const SceneMeshes& meshes, const Recording& recording
 Camera fit_world(const SceneMeshes& meshes, const Recording& recording);
 Camera fit_difference(const SceneMeshes& meshes, const Recording& recording);
 
+/// What a polytope's border consists of: faces, in the plane edges, on a line endpoints.
+std::string facet_name(int dimension);
 /// The letter of the vertex at a place of the simplex: P, Q, R, S. A and B are the bodies.
 char vertex_letter(std::ptrdiff_t place);
 /// The letter a vertex goes by at a step: P for the newest of the simplex (or the oldest), then Q, R, S; "" when it is not in it. At the

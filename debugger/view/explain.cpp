@@ -60,7 +60,6 @@ struct Explain : ExplainMotion {
 
   bool rounded() const { return gjkdbg::rounded(recording.scene.scene); }
   const char* bodies() const { return rounded() ? "cores" : "bodies"; }
-
   std::string a() const { return body_letter(frame.pair[0]); }
   std::string b() const { return body_letter(frame.pair[1]); }
   std::string difference() const { return a() + " - " + b(); }
@@ -104,8 +103,8 @@ struct Explain : ExplainMotion {
         return "No vertex lies beyond the chosen " + face + ": it is part of the boundary of " + difference() + ", and its distance" + with_the_radii(e) + " is the depth. Moving " + b() + " by " + short_number(e.depth) + " along " +
                short_vector(e.normal) + " just separates the bodies.";
       case EpaStatus::flat:
-        if (rounded()) return "The difference of the cores has no " + std::string(face == "edge" ? "area" : "volume") + ", and the origin lies in it: the depth, " + short_number(e.depth) + ", is that of the radii alone. The normal is across the flat difference.";
-        return difference() + " has no " + std::string(face == "edge" ? "area" : "volume") + " here: the " + bodies() + " touch without depth. The normal is across the flat difference.";
+        if (rounded()) return "The difference of the cores has no " + measure() + ", and the origin lies in it: the depth, " + short_number(e.depth) + ", is that of the radii alone. The normal is across the flat difference.";
+        return difference() + " has no " + measure() + " here: the " + bodies() + " touch without depth. The normal is across the flat difference.";
       case EpaStatus::separated: return "A support plane has the origin on its far side: the bodies are apart after all, by less than GJK could tell.";
       case EpaStatus::stalled: return "No " + face + " can be added in this precision. The last good " + face + " is the answer, and the bounds say how exact it is.";
       case EpaStatus::iteration_limit: return "The limit is reached before the bounds met, as on round shapes with many directions equally good. The bounds say how much is known.";
@@ -161,6 +160,8 @@ struct Explain : ExplainMotion {
   }
 
   std::string facet() const { return facet_name(recording); }
+  std::string measure() const { return recording.scene.scene.dimension == 1 ? "length" : recording.scene.scene.dimension == 2 ? "area" : "volume"; }
+  static std::string capital(std::string word) { return word[0] = static_cast<char>(word[0] - 'a' + 'A'), word; }
 
   /// How far EPA's support reaches, against the face chosen before it, and what comes of it.
   std::string reach_across(const recorded::SupportQueried& e) const {
@@ -174,7 +175,6 @@ struct Explain : ExplainMotion {
 
   /// Whether directions other than -v are asked for.
   bool led() const { return recording.settings.name == MethodName::gjk_accelerated; }
-
   bool ends_here() const { return frame.step + 1 < recording.events.size() && std::holds_alternative<recorded::GjkEnded>(recording.events[frame.step + 1]); }
 
   /// v of the simplex before this step; null where there is none.
@@ -261,7 +261,7 @@ struct Explain : ExplainMotion {
 
   Explanation operator()(const recorded::FaceChosen& e) const {
     if (foreign(recording)) return {"The solver's nearest " + facet(), "It takes " + facet() + " " + std::to_string(e.face) + vertices_of(e.face) + " for the nearest to the origin, and gives " + short_number(e.distance) + " for its distance, " + short_vector(e.normal) + " for its normal."};
-    return {"Nearest " + facet() + " chosen", std::string(facet() == "edge" ? "Edge " : "Face ") + std::to_string(e.face) + " is nearest the origin, at " + short_number(e.distance) + ". The depth is at least that. Is there anything of " + difference() + " beyond it?"};
+    return {"Nearest " + facet() + " chosen", capital(facet()) + " " + std::to_string(e.face) + " is nearest the origin, at " + short_number(e.distance) + ". The depth is at least that. Is there anything of " + difference() + " beyond it?"};
   }
 
   Explanation operator()(const recorded::PolytopeGrown& e) const {

@@ -33,7 +33,7 @@ bool meets_at(const Recording& recording, std::size_t step);
 bool of_two_boxes(const Recording& recording, std::size_t step);
 /// The name it has in the scene; "body 0" where it has none.
 std::string body_name(const Recording& recording, int body);
-/// What a polytope's border consists of: "face"; in the plane "edge".
+/// What a polytope's border consists of: "face"; in the plane "edge", on a line "endpoint".
 std::string facet_name(const Recording& recording);
 /// Vertices as P, Q, R, S: by their places in `order`.
 std::string letters(const std::vector<int>& vertices, const std::vector<int>& order);

@@ -102,8 +102,8 @@ void body_handles(App& app, const Projection& projection, ImDrawList* draw, Held
     const std::string letter = body_letter(i);
     const bool near = ImGui::IsItemHovered() && distance(mouse, h.centre) < h.radius + app.theme.px(3);
     const bool near_disc = ImGui::IsItemHovered() && dimension > 1 && !near && distance(mouse, h.disc) < app.theme.px(7);
-    if (dimension == 1) draw->AddCircleFilled(h.centre, h.radius, packed(app.theme.palette.view), 24);  // on the bar of its own colour
-    draw->AddCircle(h.centre, h.radius, packed(colour.with_alpha(near || (held.body == i && !held.turning) ? 1 : 0.55)), 24, app.theme.px(2));
+    draw->AddCircleFilled(h.centre, h.radius, packed(app.theme.palette.view.with_alpha(dimension == 1 ? 1 : 0.75)), 24);  // the letter lies on a body of its own colour
+    draw->AddCircle(h.centre, h.radius, packed(colour.with_alpha(near || (held.body == i && !held.turning) ? 1 : 0.7)), 24, app.theme.px(2));
     if (dimension > 1) draw->AddCircleFilled(h.disc, app.theme.px(3.5f), packed(colour.with_alpha(near_disc || (held.body == i && held.turning) ? 1 : 0.6)), 16);
     body_name(app, h.centre, letter, colour);
     if (near && held.body < 0) ImGui::SetTooltip("drag: move %s", letter.c_str());

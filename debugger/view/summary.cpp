@@ -48,7 +48,7 @@ std::string body_name(const Recording& recording, int body) {
   return name.empty() ? "body " + std::to_string(body) : name;
 }
 
-std::string facet_name(const Recording& recording) { return recording.scene.scene.dimension == 2 ? "edge" : "face"; }
+std::string facet_name(const Recording& recording) { return gjkdbg::facet_name(recording.scene.scene.dimension); }
 
 bool of_two_boxes(const Recording& recording, std::size_t step) {
   const int dimension = recording.scene.scene.dimension;
