@@ -81,14 +81,14 @@ TEST_F(Newcomer, GoesToTheEndOfTheLongerRun) {
   ASSERT_EQ(session.compare_with(Method{}, "to the end"), "");
   const std::size_t here = session.count(), beside = session.other().events.size();
   ASSERT_LT(here, beside);
-  EXPECT_TRUE(ending_text(session).starts_with("It goes on for " + std::to_string(beside - here) + " steps")) << ending_text(session);
+  EXPECT_TRUE(ending_text(session).starts_with("it goes on for " + std::to_string(beside - here) + " steps")) << ending_text(session);
   session.swap_compared("two steps");
   ASSERT_TRUE(session.comparing());
   EXPECT_EQ(session.count(), beside);
   EXPECT_EQ(session.other().events.size(), here);
   EXPECT_EQ(session.other_title(), "two steps");
   session.go_to(beside - 1);
-  EXPECT_EQ(ending_text(session), "It has ended, at step " + std::to_string(here - 1) + ".");
+  EXPECT_EQ(ending_text(session), "it has ended, at step " + std::to_string(here - 1));
   host.frame();
   session.undo();
   EXPECT_EQ(session.count(), here);
@@ -97,6 +97,33 @@ TEST_F(Newcomer, GoesToTheEndOfTheLongerRun) {
   session.swap_compared("deep");
   EXPECT_EQ(session.title(), "box-box-apart");
   EXPECT_EQ(session.other_title(), "deep");
+}
+
+/// The words of a scene are of its bodies as they were.
+TEST_F(Newcomer, IsNotToldAnEditedSceneByItsOldWords) {
+  const std::string words = session.scene().scene.description;
+  SceneFile next = session.scene();
+  next.method.closest_point = ClosestPoint::johnson;
+  ASSERT_EQ(session.edit(next), "");
+  EXPECT_EQ(session.scene_to_keep().scene.description, words) << "which do not speak of the method";
+  next.scene.bodies[1].pose.position[0] += 5;
+  ASSERT_EQ(session.edit(next), "");
+  EXPECT_EQ(session.scene_to_keep().scene.description, "edited, from: " + words);
+  session.open(session.scene_to_keep(), "again");
+  next = session.scene();
+  next.scene.bodies[1].pose.position[0] += 1;
+  ASSERT_EQ(session.edit(next), "");
+  EXPECT_EQ(session.scene_to_keep().scene.description, "edited, from: " + words) << "once is enough";
+}
+
+TEST_F(Newcomer, ReadsOfEndpointsOnALine) {
+  app.open_gallery("1d-overlap");
+  for (std::size_t i = 0; i < session.count(); ++i) {
+    session.go_to(i);
+    const Explanation e = explain(session.recording(), session.frame());
+    EXPECT_EQ((e.title + e.text + summary(session.recording(), i)).find(" face"), std::string::npos) << e.title << ": " << e.text;
+    EXPECT_TRUE(!kind_at<recorded::FaceChosen>(session, i) || e.text.starts_with("Endpoint ")) << e.text;
+  }
 }
 
 TEST_F(Newcomer, FindsTheWayBackFromALook) {

@@ -113,7 +113,7 @@ std::string save(const App& app, const std::string& file) {
   try {
     if (file.ends_with(".png") || file.ends_with(".svg") || file.ends_with(".gif")) return render_to(app, file), std::string();
     const Recording& recording = app.session.recording();
-    write_output(file, file.ends_with(".recording.json") ? recording_to_text(recording) : pretty_json(scene_to_json(recording.scene)) + "\n");
+    write_output(file, file.ends_with(".recording.json") ? recording_to_text(recording) : pretty_json(scene_to_json(app.session.scene_to_keep())) + "\n");
     return {};
   } catch (const Error& e) {
     return e.line();

@@ -6,6 +6,7 @@
 #include "algo/solve.h"
 #include "debugger/view/explain.h"
 #include "recordings/json_reading.h"
+#include "recordings/json_writing.h"
 
 namespace gjkdbg {
 
@@ -273,6 +274,19 @@ std::string Session::edit(const SceneFile& next) {
   } catch (const Error& e) {
     return in_the_panels_words(e);
   }
+}
+
+SceneFile Session::scene_to_keep() const {
+  SceneFile kept = scene();
+  std::string& description = kept.scene.description;
+  const std::string edited = "edited, from: ";
+  if (undo_.empty() || description.empty() || description.starts_with(edited)) return kept;
+  const auto described = [](const SceneFile& file) {
+    auto json = scene_to_json(file);
+    return std::pair(json["bodies"], json["query"]);
+  };
+  if (described(undo_.front().scene) != described(kept)) description = edited + description;
+  return kept;
 }
 
 void Session::go_back_to(Past past) {

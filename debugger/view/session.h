@@ -31,6 +31,8 @@ class Session {
   bool is_open() const { return replay_.has_value(); }
   const std::string& title() const { return title_; }
   const SceneFile& scene() const { return recording_.scene; }
+  /// To be saved or copied: where its bodies or its query have been edited the description says so, for it is of the scene as it was.
+  SceneFile scene_to_keep() const;
   const Recording& recording() const { return recording_; }
   const Frame& frame() { return replay_->at(step_); }
   const SceneMeshes& meshes() const { return meshes_; }

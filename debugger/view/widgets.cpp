@@ -262,8 +262,8 @@ std::string parting_text(const Session& session) {
 std::string ending_text(const Session& session) {
   const std::size_t here = session.count() - 1, beside = session.other().events.size() - 1;
   if (here == beside) return {};
-  if (here < beside) return "It goes on for " + std::to_string(beside - here) + (beside - here == 1 ? " step" : " steps") + " longer than this run, to step " + std::to_string(beside) + ".";
-  return session.step() > beside ? "It has ended, at step " + std::to_string(beside) + "." : "It ends at step " + std::to_string(beside) + ", before this run.";
+  if (here < beside) return "it goes on for " + std::to_string(beside - here) + (beside - here == 1 ? " step" : " steps") + " longer than this run, to step " + std::to_string(beside);
+  return session.step() > beside ? "it has ended, at step " + std::to_string(beside) : "it ends at step " + std::to_string(beside) + ", before this run";
 }
 
 bool answers_agree(const Result& a, const Result& b) {
