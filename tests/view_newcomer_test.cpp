@@ -1,4 +1,5 @@
 // What someone who meets the algorithms for the first time must not take for something else: the next direction, letters, where two runs part, the way back.
+#include <algorithm>
 #include <cmath>
 
 #include "debugger/view/explain.h"
@@ -45,6 +46,26 @@ TEST_F(Newcomer, TellsVerticesFromBodies) {
   EXPECT_EQ(explain(session.recording(), session.frame()).title, "The whole triangle is kept");
   EXPECT_NE(explain(session.recording(), session.frame()).text.find("Every vertex of PQR is needed"), std::string::npos);
   EXPECT_EQ(meaning_of("v = P", false, session.frame(), session.recording()), meaning_of("v", false, session.frame(), session.recording()));
+}
+
+/// Counted from the oldest, the letters of the sentence and of the list are still the picture's.
+TEST_F(Newcomer, ReadsTheLettersOfThePicture) {
+  for (const char* name : {"box-box-apart", "box-box-deep"}) {
+    app.open_gallery(name);
+    for (std::size_t i = 0; i < session.count(); ++i) {
+      const auto* cut = kind_at<recorded::SimplexReduced>(session, i);
+      if (!cut || cut->before.size() < 2) continue;
+      session.go_to(i);
+      std::string all, kept;
+      for (const int v : cut->before) all += simplex_letter(session.frame(), v, false);
+      for (const int v : cut->region) kept += simplex_letter(session.frame(), v, false);
+      std::sort(all.begin(), all.end()), std::sort(kept.begin(), kept.end());
+      EXPECT_TRUE(summary(session.recording(), i, false).starts_with(all + " -> " + kept)) << summary(session.recording(), i, false);
+      const Explanation e = explain(session.recording(), session.frame(), false);
+      EXPECT_NE(e.title.find(all == kept ? "whole" : " " + kept), std::string::npos) << e.title;
+      EXPECT_NE(e.text.find(all), std::string::npos) << e.text;
+    }
+  }
 }
 
 TEST_F(Newcomer, IsToldWhereTwoRunsReallyPart) {

@@ -182,7 +182,7 @@ void App::picture_frame() {
   const float gap = theme.px(8), caption = theme.px(92);
   view_panels(*this, {gap, gap, size.x - 2 * gap, size.y - caption - 2 * gap}, false);
   begin_area("caption", {gap, size.y - caption, size.x - 2 * gap, caption - gap});
-  const Explanation e = explain(session.recording(), session.frame());
+  const Explanation e = explain(session.recording(), session.frame(), settings.newest_first);
   ImGui::PushFont(theme.title);
   ImGui::TextUnformatted(e.title.c_str());
   ImGui::PopFont();
@@ -210,7 +210,7 @@ void App::lecture_place(const std::string& place) {
 void App::lecture_panel(const Area& area) {
   if (begin_area("lecture", area)) {
     scrubber(*this);
-    const Explanation e = explain(session.recording(), session.frame());
+    const Explanation e = explain(session.recording(), session.frame(), settings.newest_first);
     ImGui::Dummy({0, theme.px(4)});
     ImGui::SetWindowFontScale(lecture_scale(ImGui::GetIO().DisplaySize.y) / 2);
     ImGui::PushFont(theme.lecture_title);

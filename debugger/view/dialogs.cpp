@@ -59,7 +59,7 @@ void App::find_dialog() {
       find_error_ = e.message();
     }
   }
-  const std::string told = !find_error_.empty() ? find_error_ : found_ ? "step " + std::to_string(*found_) + ": " + summary(session.recording(), *found_) : "";
+  const std::string told = !find_error_.empty() ? find_error_ : found_ ? "step " + std::to_string(*found_) + ": " + summary(session.recording(), *found_, settings.newest_first) : "";
   if (told.empty()) return;
   ImGui::SameLine(0, theme.px(12));
   ImGui::AlignTextToFramePadding();

@@ -40,8 +40,8 @@ struct Explain : ExplainMotion {
       if (!against) continue;
       std::string rest;
       for (const int k : against->part)
-        if (k != static_cast<int>(i)) rest += vertex_letter(k);
-      const char letter = vertex_letter(static_cast<std::ptrdiff_t>(i));
+        if (k != static_cast<int>(i)) rest.insert(newest_first ? rest.end() : rest.begin(), letter_at(static_cast<std::size_t>(k), points.size()));
+      const char letter = letter_at(i, points.size());
       std::string part = rest + letter;
       std::sort(part.begin(), part.end());
       text += std::string("; \xCE\xBB") + letter + " = " + short_number(weight) + " in " + part + ": the origin lies beyond " + (rest.size() == 1 ? "" : feature_name(rest.size()) + " ") + rest;
@@ -196,8 +196,8 @@ struct Explain : ExplainMotion {
 
   /// What a solver keeps may be wrong, and no reason is given for it: the findings and the way to go on from here stand below.
   Explanation solver_keeps(const recorded::SimplexReduced& e) const {
-    const std::string kept = letters(e.region, e.before), all = letters(e.before, e.before), part = feature_name(e.region.size()) + " " + kept;
-    std::string text = e.before.size() <= e.region.size() ? "The solver keeps the " + part : "Of " + all + ", the solver keeps the " + part + " and drops " + letters(frame.dropped, e.before);
+    const std::string kept = letters(e.region, e.before, newest_first), all = letters(e.before, e.before, newest_first), part = feature_name(e.region.size()) + " " + kept;
+    std::string text = e.before.size() <= e.region.size() ? "The solver keeps the " + part : "Of " + all + ", the solver keeps the " + part + " and drops " + letters(frame.dropped, e.before, newest_first);
     if (e.closest.size() > 0) text += ". It gives v = " + short_vector(e.closest) + ", |v| = " + short_number(e.closest.norm()) + " for the point nearest the origin";
     return {e.before.size() <= e.region.size() ? "The whole " + feature_name(e.region.size()) + " is kept" : "Simplex cut to " + part, text + "."};
   }
@@ -206,13 +206,13 @@ struct Explain : ExplainMotion {
     if (foreign(recording)) return solver_keeps(e);
     if (e.before.size() == 1 && e.closest.size() > 0)
       return {"The simplex is one vertex", "So the nearest point is that vertex: v = " + short_vector(e.closest) + ", |v| = " + short_number(e.closest.norm()) + (led() || ends_here() ? "." : "; the search goes on along -v, towards the origin.")};
-    const std::string kept = letters(e.region, e.before), all = letters(e.before, e.before);
+    const std::string kept = letters(e.region, e.before, newest_first), all = letters(e.before, e.before, newest_first);
     const std::string title = e.before.size() == e.region.size() ? "The whole " + feature_name(e.region.size()) + " is kept" : "Simplex cut to " + feature_name(e.region.size()) + " " + kept;
     std::string text;
     if (e.before.size() == e.region.size()) {
       text = "Every vertex of " + all + " is needed" + foot_within(e);
     } else {
-      text = "Of " + all + ", the " + feature_name(e.region.size()) + " " + kept + " is nearest the origin; " + letters(frame.dropped, e.before) + (frame.dropped.size() == 1 ? " is" : " are") + " dropped: no part with " +
+      text = "Of " + all + ", the " + feature_name(e.region.size()) + " " + kept + " is nearest the origin; " + letters(frame.dropped, e.before, newest_first) + (frame.dropped.size() == 1 ? " is" : " are") + " dropped: no part with " +
              (frame.dropped.size() == 1 ? "it" : "them") + " is nearer";
     }
     text += why_dropped(e);
@@ -232,7 +232,7 @@ struct Explain : ExplainMotion {
   /// Of the form that computes no nearest point: the end says whether the region holds the origin.
   std::string what_the_region_means(const recorded::SimplexReduced& e) const {
     const auto* end = ends_here() ? std::get_if<recorded::GjkEnded>(&recording.events[frame.step + 1]) : nullptr;
-    const std::string part = feature_name(e.region.size()) + " " + letters(e.region, e.before);
+    const std::string part = feature_name(e.region.size()) + " " + letters(e.region, e.before, newest_first);
     if (!end) return " The next direction leads from it to the origin.";
     if (end->status == GjkStatus::enclosed) return " The origin lies in the " + part + ": the " + bodies() + " overlap.";
     if (end->status == GjkStatus::touching) return " The origin lies on the " + part + ", within rounding: the " + bodies() + " touch or overlap.";
@@ -395,6 +395,6 @@ bool rounded(const Scene& scene) {
   return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.shape.margin > 0 || std::holds_alternative<Sphere>(b.shape.geometry) || std::holds_alternative<Capsule>(b.shape.geometry); });
 }
 
-Explanation explain(const Recording& recording, const Frame& frame) { return std::visit(Explain{recording, frame}, recording.events[frame.step]); }
+Explanation explain(const Recording& recording, const Frame& frame, bool newest_first) { return std::visit(Explain{{recording, frame, newest_first}}, recording.events[frame.step]); }
 
 }  // namespace gjkdbg

@@ -46,7 +46,7 @@ std::string triangle_name(Session& session) {
 void heading(App& app) {
   Session& session = app.session;
   const Theme& theme = app.theme;
-  const Explanation e = explain(session.recording(), session.frame());
+  const Explanation e = explain(session.recording(), session.frame(), app.settings.newest_first);
   ImGui::PushFont(theme.small);
   const std::string time = session.frame().time ? "  \xC2\xB7  time " + short_number(*session.frame().time) : "";
   ImGui::TextColored(vec(theme.palette.text_faint), "%s", shortened(theme.small, place_text(session) + time, ImGui::GetContentRegionAvail().x).c_str());
