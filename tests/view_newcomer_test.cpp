@@ -48,6 +48,18 @@ TEST_F(Newcomer, TellsVerticesFromBodies) {
   EXPECT_EQ(meaning_of("v = P", false, session.frame(), session.recording()), meaning_of("v", false, session.frame(), session.recording()));
 }
 
+/// Where no handles stand on the bodies: in what is rendered.
+TEST_F(Newcomer, SeesInAPictureWhichBodyIsWhich) {
+  const Projection projection(fit_world(session.meshes(), session.recording()), {0, 0, 320, 260});
+  ViewSettings settings;
+  for (const bool letters : {false, true}) {
+    settings.body_letters = letters;
+    std::set<std::string> names;
+    for (const PictureLabel& label : world_picture(session.meshes(), session.recording(), session.frame(), settings, dark_palette, projection).labels) names.insert(label.text);
+    EXPECT_EQ(names.contains("A") && names.contains("B"), letters);
+  }
+}
+
 /// Counted from the oldest, the letters of the sentence and of the list are still the picture's.
 TEST_F(Newcomer, ReadsTheLettersOfThePicture) {
   for (const char* name : {"box-box-apart", "box-box-deep"}) {

@@ -281,6 +281,8 @@ struct Render {
     session.open(path);
     session.go_to(step_number(session.count()));
     const Palette& palette = light ? light_palette : dark_palette;
+    ViewSettings settings;
+    settings.body_letters = true;
     const double w = width / 2.0, h = height - 60.0;
     const auto hex = [](Colour c) {
       char text[8];
@@ -296,7 +298,7 @@ struct Render {
       const auto make = world ? world_picture : difference_picture;
       const std::string clip = world ? "world" : "difference";
       out += "<clipPath id=\"" + clip + "\"><rect x=\"" + std::to_string(x) + "\" y=\"0\" width=\"" + std::to_string(w) + "\" height=\"" + std::to_string(h) + "\"/></clipPath>\n<g clip-path=\"url(#" +
-             clip + ")\">\n" + to_svg(flatten(make(session.meshes(), session.recording(), session.frame(), {}, palette, projection), projection), 14) + "</g>\n";
+             clip + ")\">\n" + to_svg(flatten(make(session.meshes(), session.recording(), session.frame(), settings, palette, projection), projection), 14) + "</g>\n";
     }
     const Explanation e = explain(session.recording(), session.frame());
     std::vector<FlatItem> caption(2);

@@ -19,6 +19,7 @@ struct ViewSettings {
   bool regions = true;        ///< the Voronoi region of the part that is kept
   bool bounds = true;         ///< rings about the origin, as far out as the bounds
   bool newest_first = true;   ///< P is the newest vertex of the simplex; else the oldest
+  bool body_letters = false;  ///< drawn in the world; the window has handles with them instead
   std::optional<int> selected;  ///< a vertex, marked in both views
   std::optional<int> pointed;   ///< a vertex under the pointer, lit in both views
 };

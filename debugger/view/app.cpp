@@ -180,7 +180,9 @@ void App::picture_frame() {
   ImGui::Begin("picture", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
   ImGui::PopStyleVar();
   const float gap = theme.px(8), caption = theme.px(92);
+  settings.body_letters = true;
   view_panels(*this, {gap, gap, size.x - 2 * gap, size.y - caption - 2 * gap}, false);
+  settings.body_letters = false;
   begin_area("caption", {gap, size.y - caption, size.x - 2 * gap, caption - gap});
   const Explanation e = explain(session.recording(), session.frame(), settings.newest_first);
   ImGui::PushFont(theme.title);
