@@ -48,6 +48,20 @@ TEST_F(Newcomer, TellsVerticesFromBodies) {
   EXPECT_EQ(meaning_of("v = P", false, session.frame(), session.recording()), meaning_of("v", false, session.frame(), session.recording()));
 }
 
+/// Before it has a face, too.
+TEST_F(Newcomer, SeesThePolytopesVerticesByTheirNumbers) {
+  app.open_gallery("hulls-around-the-way-out");
+  std::size_t seeded = 0;
+  while (!kind_at<recorded::PolytopeSeeded>(session, seeded)) ++seeded;
+  session.go_to(seeded - 1);
+  ASSERT_GE(session.frame().seeds.size(), 2u);
+  const Projection projection(fit_difference(session.meshes(), session.recording()), {0, 0, 320, 260});
+  std::set<std::string> names;
+  for (const PictureLabel& label : difference_picture(session.meshes(), session.recording(), session.frame(), ViewSettings{}, dark_palette, projection).labels) names.insert(label.text);
+  EXPECT_TRUE(names.contains("#" + std::to_string(session.frame().seeds[0])));
+  EXPECT_TRUE(names.contains("w #" + std::to_string(session.frame().seeds.back())));
+}
+
 /// Where no handles stand on the bodies: in what is rendered.
 TEST_F(Newcomer, SeesInAPictureWhichBodyIsWhich) {
   const Projection projection(fit_world(session.meshes(), session.recording()), {0, 0, 320, 260});

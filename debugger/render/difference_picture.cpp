@@ -324,9 +324,9 @@ class DifferencePainter : public Painter {
     if (settings_.labels) picture_.labels.back().dot = true;
   }
 
-  /// Those of a polytope go by their numbers, as long as there is room for them.
+  /// Those of a polytope, and those that are asked for to begin it, go by their numbers, as long as there is room for them.
   bool numbered() const {
-    std::set<int> corners;
+    std::set<int> corners(frame_.seeds.begin(), frame_.seeds.end());
     for (const auto& [number, f] : frame_.faces) corners.insert(f.vertices.begin(), f.vertices.end());
     return !corners.empty() && corners.size() <= 14;
   }

@@ -16,6 +16,12 @@
 
 namespace gjkdbg {
 
+/// Of two runs whose events are not of the same kinds one may only put down more: whether they go the same way is told by their supports.
+struct SharedSupports {
+  std::size_t first = 0;  ///< so many are the same
+  bool all = false;       ///< and one of the runs has no more
+};
+
 class Session {
  public:
   /// Opens a scene, or a recording as it is. Throws Error; then nothing has changed.
@@ -85,6 +91,7 @@ class Session {
   const std::optional<Difference>& parting() const { return parting_; }
   /// Whether the two are of algorithms that have no step in common.
   bool unlike() const { return unlike_; }
+  const SharedSupports& shared_supports() const { return shared_supports_; }
   /// What differs before they part, or without it: "", " but for rounding", " in what both compute".
   const char* alike_but() const { return alike_but_; }
 
@@ -135,6 +142,7 @@ class Session {
   std::optional<Difference> parting_;
   bool unlike_ = false;
   const char* alike_but_ = "";
+  SharedSupports shared_supports_;
 
   struct Waiting {
     std::string title;

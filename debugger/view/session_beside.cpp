@@ -31,12 +31,30 @@ void Session::compare_with(Recording recording, std::string title) {
   find_parting();
 }
 
+namespace {
+
+SharedSupports shared_supports_of(const Recording& a, const Recording& b) {
+  const auto supports = [](const Recording& run) {
+    std::vector<const AnyVector*> all;
+    for (const Event& event : run.events)
+      if (const auto* e = std::get_if<recorded::SupportQueried>(&event)) all.push_back(&e->w);
+    return all;
+  };
+  const auto here = supports(a), beside = supports(b);
+  const auto same = [](const AnyVector* x, const AnyVector* y) { return x->size() == y->size() && (*x - *y).norm() <= 1e-9 * (x->norm() + y->norm()); };
+  const auto first = static_cast<std::size_t>(std::mismatch(here.begin(), here.end(), beside.begin(), beside.end(), same).first - here.begin());
+  return {first, first == std::min(here.size(), beside.size())};
+}
+
+}  // namespace
+
 void Session::find_parting() {
   const std::optional<Difference> any = first_difference(recording_, other_);
   if (!any) return;
   unlike_ = any->event == 0 && recording_.events[0].index() != other_.events[0].index();
   if (unlike_) return;
   parting_ = first_other_step(recording_, other_, any->event);
+  if (parting_ && parting_->fields.empty()) shared_supports_ = shared_supports_of(recording_, other_);
   if (parting_ && parting_->event == any->event) return;
   const bool rounding = !any->by.empty() && std::none_of(any->by.begin(), any->by.end(), [](double x) { return std::isnan(x); });
   alike_but_ = rounding ? " but for rounding" : " in what both compute";
@@ -46,7 +64,7 @@ void Session::stop_comparing() {
   other_replay_.reset();
   other_method_.reset();
   parting_.reset();
-  unlike_ = false, alike_but_ = "";
+  unlike_ = false, alike_but_ = "", shared_supports_ = {};
 }
 
 void Session::swap_compared(std::string title) {

@@ -219,27 +219,17 @@ std::string in_words_of_the_panel(std::string field) {
   return field;
 }
 
-/// Of two runs whose events are not of the same kinds one may only put down more: how many supports they have in common says whether they go the same way.
-std::string common_supports(const Recording& a, const Recording& b) {
-  const auto supports = [](const Recording& run) {
-    std::vector<AnyVector> all;
-    for (const Event& event : run.events)
-      if (const auto* e = std::get_if<recorded::SupportQueried>(&event)) all.push_back(e->w);
-    return all;
-  };
-  const std::vector<AnyVector> here = supports(a), beside = supports(b);
-  const auto same = [](const AnyVector& x, const AnyVector& y) { return x.size() == y.size() && (x - y).norm() <= 1e-9 * (x.norm() + y.norm()); };
-  const auto common = std::mismatch(here.begin(), here.end(), beside.begin(), beside.end(), same).first - here.begin();
-  if (common == 0) return "";
-  const bool all = static_cast<std::size_t>(common) == std::min(here.size(), beside.size());
-  return all ? "; as far as both go, all supports are the same" : "; the first " + (common == 1 ? std::string("support is") : std::to_string(common) + " supports are") + " the same";
+std::string in_words(const SharedSupports& shared) {
+  if (shared.first == 0) return "";
+  if (shared.all) return "; as far as both go, all supports are the same";
+  return "; the first " + (shared.first == 1 ? std::string("support is") : std::to_string(shared.first) + " supports are") + " the same";
 }
 
 /// What differs where two runs part: kinds, or fields, with how much their numbers differ by.
 std::string what_parts(const Session& session) {
   const Difference& p = *session.parting();
   const auto kind = [&](const Recording& run) { return p.event < run.events.size() ? "\"" + std::string(short_kind(run.events[p.event])) + "\"" : std::string("nothing more"); };
-  if (p.fields.empty()) return ": " + kind(session.recording()) + " here, " + kind(session.other()) + " beside" + common_supports(session.recording(), session.other());
+  if (p.fields.empty()) return ": " + kind(session.recording()) + " here, " + kind(session.other()) + " beside" + in_words(session.shared_supports());
   std::string text;
   for (std::size_t i = 0; i < p.fields.size(); ++i) {
     text += (i == 0 ? ": " : ", ") + in_words_of_the_panel(p.fields[i]);
