@@ -1,4 +1,6 @@
 // What someone who meets the algorithms for the first time must not take for something else: the next direction, letters, where two runs part, the way back.
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -46,6 +48,29 @@ TEST_F(Newcomer, TellsVerticesFromBodies) {
   EXPECT_EQ(explain(session.recording(), session.frame()).title, "The whole triangle is kept");
   EXPECT_NE(explain(session.recording(), session.frame()).text.find("Every vertex of PQR is needed"), std::string::npos);
   EXPECT_EQ(meaning_of("v = P", false, session.frame(), session.recording()), meaning_of("v", false, session.frame(), session.recording()));
+}
+
+/// Where no bounds close in SAT's plot has an axis a stem, and a click goes to its step.
+TEST_F(Newcomer, GoesThroughTheAxesOfSat) {
+  app.open_gallery("sat-box-box");
+  session.go_to(0);
+  host.frame();
+  host.click(780, 730);
+  EXPECT_TRUE(kind_at<recorded::AxisTested>(session, session.step())) << session.step();
+}
+
+TEST_F(Newcomer, SeesTheListThatIsSearched) {
+  app.ask(App::Asking::find);
+  host.frame(), host.frame(), host.frame();
+  const ImGuiWindow *dialog = nullptr, *list = nullptr;
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+    const std::string name = window->Name;
+    if (name.find("ask") != std::string::npos) dialog = window;
+    if (name.find("events") != std::string::npos) list = window;
+  }
+  ASSERT_TRUE(dialog && list);
+  EXPECT_LT(dialog->Pos.y + dialog->Size.y, 100);
+  EXPECT_GT(list->Pos.y, 400);
 }
 
 /// Before it has a face, too.
