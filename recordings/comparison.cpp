@@ -42,16 +42,16 @@ std::string text_of(const Result& result, Query query) {
   return text + '}';
 }
 
-/// Numbers may differ by 1e-4 of the greatest of them and `size`.
-bool nearly_same(const Json& a, const Json& b, double size) {
+/// Numbers may differ by `share` of the greatest of them and `size`.
+bool nearly_same(const Json& a, const Json& b, double size, double share = 1e-4) {
   if (a.is_number_float() || b.is_number_float()) {
     if (!a.is_number() || !b.is_number()) return false;
     const double x = a.get<double>(), y = b.get<double>();
-    return std::abs(x - y) <= 1e-4 * std::max({size, std::abs(x), std::abs(y)});
+    return std::abs(x - y) <= share * std::max({size, std::abs(x), std::abs(y)});
   }
   if (a.type() != b.type() || a.size() != b.size()) return false;
-  if (a.is_array()) return std::equal(a.begin(), a.end(), b.begin(), [&](const Json& x, const Json& y) { return nearly_same(x, y, size); });
-  if (a.is_object()) return std::all_of(a.items().begin(), a.items().end(), [&](const auto& item) { return b.contains(item.key()) && nearly_same(item.value(), b[item.key()], size); });
+  if (a.is_array()) return std::equal(a.begin(), a.end(), b.begin(), [&](const Json& x, const Json& y) { return nearly_same(x, y, size, share); });
+  if (a.is_object()) return std::all_of(a.items().begin(), a.items().end(), [&](const auto& item) { return b.contains(item.key()) && nearly_same(item.value(), b[item.key()], size, share); });
   return a == b;
 }
 
@@ -82,7 +82,7 @@ double largest_difference(const Json& a, const Json& b) {
 }
 
 template <class Same>
-std::optional<Difference> first_not(const Same& same, const Recording& a, const Recording& b) {
+std::optional<Difference> first_not(const Same& same, const Recording& a, const Recording& b, std::size_t from = 0) {
   const auto difference = [&](std::size_t event, std::string what, std::string left, std::string right, bool comparable) -> std::optional<Difference> {
     Difference d{event, std::move(what), {}, std::move(left), std::move(right), {}};
     if (!comparable) return d;
@@ -93,7 +93,7 @@ std::optional<Difference> first_not(const Same& same, const Recording& a, const 
     return d;
   };
   const std::size_t longer = std::max(a.events.size(), b.events.size());
-  for (std::size_t i = 0; i < longer; ++i) {
+  for (std::size_t i = from; i < longer; ++i) {
     std::string left = i < a.events.size() ? text_of(a.events[i]) : "", right = i < b.events.size() ? text_of(b.events[i]) : "";
     if (left == right) continue;
     const bool comparable = !left.empty() && !right.empty() && a.events[i].index() == b.events[i].index();
@@ -119,11 +119,27 @@ std::vector<std::string> differing_premises(const Recording& a, const Recording&
   return names;
 }
 
-std::optional<Difference> first_other_way(const Recording& a, const Recording& b) {
+namespace {
+
+/// The largest coordinate of the difference that was met.
+double size_of_difference(const Recording& a) {
   double size = 0;
   for (const Event& event : a.events)
     if (const auto* query = std::get_if<recorded::SupportQueried>(&event)) size = std::max(size, query->w.cwiseAbs().maxCoeff());
+  return size;
+}
+
+}  // namespace
+
+std::optional<Difference> first_other_way(const Recording& a, const Recording& b) {
+  const double size = size_of_difference(a);
   return first_not([&](const Json& x, const Json& y) { return nearly_same(x, y, size); }, a, b);
+}
+
+std::optional<Difference> first_other_step(const Recording& a, const Recording& b, std::size_t from) {
+  const double size = size_of_difference(a), share = a.settings.scalar == b.settings.scalar ? 1e-9 : 1e-4;
+  const auto unknown = [](const Json& x) { return x.is_null() || (x.is_array() && x.empty()); };
+  return first_not([&](const Json& x, const Json& y) { return unknown(x) || unknown(y) || nearly_same(x, y, size, share); }, a, b, from);
 }
 
 std::optional<Difference> verify(const Recording& recording) {

@@ -28,6 +28,10 @@ std::vector<std::string> differing_premises(const Recording& a, const Recording&
 /// where they differ by more than 1e-4 of their size or the scene's. `fields` and the results as above.
 std::optional<Difference> first_other_way(const Recording& a, const Recording& b);
 
+/// The first event, from `from` on, in which runs of two methods differ in more than rounding and in what only one of them computes, as boolean
+/// GJK no bounds. Within one algorithm: of two that begin with different kinds of events no step is the other's, and it is that one.
+std::optional<Difference> first_other_step(const Recording& a, const Recording& b, std::size_t from = 0);
+
 /// Runs the recording's scene again with the recording's method; the difference, if any (left: the recording).
 std::optional<Difference> verify(const Recording& recording);
 

@@ -58,7 +58,7 @@ struct Apply {
     frame.barycentric = e.barycentric;
     frame.closest.reset();
     if (e.closest.size() > 0) frame.closest = e.closest;
-    if (e.closest.size() > 0 && !e.closest.isZero(0)) frame.direction = -e.closest, frame.answered = false;
+    next_direction(e.closest);
     bounds(e.lower_bound, e.upper_bound);
   }
 
@@ -110,8 +110,7 @@ struct Apply {
     frame.iteration = e.iteration;
     frame.epa_status = e.status;
     if (e.face >= 0) frame.chosen = e.face;
-    frame.normal = e.normal;
-    frame.depth = e.depth;
+    frame.normal = e.normal, frame.depth = e.depth;
     frame.stage = Frame::Stage::done;
     bounds_of_result();
   }
@@ -156,8 +155,7 @@ struct Apply {
 
   void operator()(const recorded::SatEnded& e) {
     frame.iteration = e.iteration;
-    frame.sat_status = e.status;
-    frame.stage = Frame::Stage::done;
+    frame.sat_status = e.status, frame.stage = Frame::Stage::done;
     if (e.status == SatStatus::overlapping) frame.normal = e.normal, frame.depth = -e.distance;
     if (step + 1 == recording.events.size()) bounds_of_result();
   }
@@ -167,8 +165,6 @@ struct Apply {
     frame.stage = Frame::Stage::closed_form;
     frame.parallelogram = {e.corner, e.edge_a, e.edge_b};
   }
-
-  void operator()(const recorded::LinesSolved&) {}
 
   void operator()(const recorded::ClosedFormEnded& e) {
     frame.closed_form_status = e.status;
@@ -196,8 +192,8 @@ struct Apply {
     frame.stage = Frame::Stage::done;
   }
 
+  void operator()(const recorded::LinesSolved&) {}
   void operator()(const recorded::Warning&) {}
-
   void operator()(const recorded::CastBegan&) {
     run_is_over();
     if (frame.places.empty()) places_after(0, 0);
@@ -238,6 +234,14 @@ struct Apply {
       frame.places.push_back({b.position, rotation, b.velocity, b.angular_velocity});
     }
     frame.time = e.time;
+  }
+
+  /// After a cut the last direction has done its part. The next one need not be -v: the boolean form has no v, and an accelerated one is led elsewhere.
+  void next_direction(const AnyVector& closest) {
+    const auto* next = step + 1 < recording.events.size() ? std::get_if<recorded::SupportQueried>(&recording.events[step + 1]) : nullptr;
+    frame.direction.reset(), frame.answered = false;
+    if (next && next->phase == Phase::gjk) frame.direction = next->direction;
+    else if (closest.size() > 0 && !closest.isZero(0)) frame.direction = -closest;
   }
 
   /// Of this run of GJK; null where it has none.

@@ -37,13 +37,13 @@ struct Frame {
   int iteration = 0;
   enum class Stage { before, gjk, seed, epa, mpr, sat, closed_form, projections, done } stage = Stage::before;
 
-  std::optional<AnyVector> direction;  ///< the latest search direction, or the one that comes next
+  std::optional<AnyVector> direction;  ///< the latest search direction; after a cut the one that comes next, if any does
   bool answered = false;               ///< whether `newest` is the support along `direction`
   std::optional<int> newest;           ///< vertex of the latest support query
 
   /// GJK: the current simplex, newest first: after a support query it holds the new vertex too. EPA starts from it and leaves it.
   std::vector<int> simplex;
-  /// The vertices in the order of their letters A, B, C, D: the simplex, and at the step of a cut what it was before.
+  /// The vertices in the order of their letters P, Q, R, S: the simplex, and at the step of a cut what it was before.
   std::vector<int> lettered;
   std::vector<int> seeds;           ///< EPA: vertices asked for to complete the start, until the polytope stands
   std::vector<int> dropped;         ///< vertices the event at `step` dropped

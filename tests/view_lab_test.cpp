@@ -84,6 +84,13 @@ TEST_F(Lab, ADotOpensItsWorstPairWithItsMethodAndTolerance) {
   EXPECT_FALSE(app.show_lab);
   EXPECT_EQ(session.recording().settings.closest_point, ClosestPoint::johnson);
   EXPECT_DOUBLE_EQ(session.recording().settings.tolerance, 1e-6);
+  host.frame();
+  host.click(1000, 77);  // "Back to the chart"
+  EXPECT_TRUE(app.show_lab);
+  app.show_lab = false;
+  host.frame();
+  host.click(1150, 77);  // "Back to box-box-deep"
+  EXPECT_EQ(session.title(), "box-box-deep");
 }
 
 TEST_F(Lab, AllOfAChartIsShown) {

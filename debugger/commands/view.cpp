@@ -113,7 +113,7 @@ std::string save(const App& app, const std::string& file) {
   try {
     if (file.ends_with(".png") || file.ends_with(".svg") || file.ends_with(".gif")) return render_to(app, file), std::string();
     const Recording& recording = app.session.recording();
-    write_output(file, file.ends_with(".recording.json") ? recording_to_text(recording) : pretty_json(scene_to_json(recording.scene)) + "\n");
+    write_output(file, file.ends_with(".recording.json") ? recording_to_text(recording) : pretty_json(scene_to_json(app.session.scene_to_keep())) + "\n");
     return {};
   } catch (const Error& e) {
     return e.line();
@@ -281,6 +281,8 @@ struct Render {
     session.open(path);
     session.go_to(step_number(session.count()));
     const Palette& palette = light ? light_palette : dark_palette;
+    ViewSettings settings;
+    settings.body_letters = true;
     const double w = width / 2.0, h = height - 60.0;
     const auto hex = [](Colour c) {
       char text[8];
@@ -296,7 +298,7 @@ struct Render {
       const auto make = world ? world_picture : difference_picture;
       const std::string clip = world ? "world" : "difference";
       out += "<clipPath id=\"" + clip + "\"><rect x=\"" + std::to_string(x) + "\" y=\"0\" width=\"" + std::to_string(w) + "\" height=\"" + std::to_string(h) + "\"/></clipPath>\n<g clip-path=\"url(#" +
-             clip + ")\">\n" + to_svg(flatten(make(session.meshes(), session.recording(), session.frame(), {}, palette, projection), projection), 14) + "</g>\n";
+             clip + ")\">\n" + to_svg(flatten(make(session.meshes(), session.recording(), session.frame(), settings, palette, projection), projection), 14) + "</g>\n";
     }
     const Explanation e = explain(session.recording(), session.frame());
     std::vector<FlatItem> caption(2);

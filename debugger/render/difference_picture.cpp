@@ -123,7 +123,7 @@ class DifferencePainter : public Painter {
   }
 
   /// As the step's sentence calls it.
-  std::string name_of(const FrameFace& f) const { return (meshes_.dimension == 2 ? "edge " : "face ") + std::to_string(f.face); }
+  std::string name_of(const FrameFace& f) const { return facet_name(meshes_.dimension) + " " + std::to_string(f.face); }
 
   std::optional<ViewPoint> middle_of(const FrameFace& f) const {
     ViewPoint middle = ViewPoint::Zero();
@@ -205,7 +205,7 @@ class DifferencePainter : public Painter {
     for (const int i : part) middle += points[static_cast<std::size_t>(i)] / static_cast<double>(part.size());
     for (const int v : frame_.simplex) name += letter_of(v);
     std::sort(name.begin(), name.end());
-    label(meshes_.dimension == 1 ? middle : ViewPoint(middle * 0.55), "region " + name, palette_.simplex, 10, 22);
+    spare_label(meshes_.dimension == 1 ? middle : ViewPoint(middle * 0.55), "region " + name, palette_.simplex, 10, 22);
   }
 
   /// What was dropped in the last steps, fading.
@@ -235,7 +235,7 @@ class DifferencePainter : public Painter {
     const auto ring_at = [&](double bound, const char* name, Colour colour) {
       const double r = std::abs(bound + meshes_.radius);
       if (!std::isfinite(r) || !(r > 1e-3 * unit()) || r > 50 * unit()) return;
-      if (r > 0.15 * unit() && r < 0.8 * unit()) small_label((projection_.right() - projection_.up()) * (r * M_SQRT1_2), name, palette_.text_faint);
+      if (r > 0.15 * unit() && r < 0.8 * unit()) small_label((projection_.right() - projection_.up()) * (r * M_SQRT1_2), name, palette_.text_faint, true);
       if (flat()) ring(r, ViewPoint::UnitX(), ViewPoint::UnitY(), colour);
       else ring(r, projection_.right(), projection_.up(), colour);
     };
@@ -324,9 +324,9 @@ class DifferencePainter : public Painter {
     if (settings_.labels) picture_.labels.back().dot = true;
   }
 
-  /// Those of a polytope go by their numbers, as long as there is room for them.
+  /// Those of a polytope, and those that are asked for to begin it, go by their numbers, as long as there is room for them.
   bool numbered() const {
-    std::set<int> corners;
+    std::set<int> corners(frame_.seeds.begin(), frame_.seeds.end());
     for (const auto& [number, f] : frame_.faces) corners.insert(f.vertices.begin(), f.vertices.end());
     return !corners.empty() && corners.size() <= 14;
   }

@@ -93,8 +93,12 @@ void Painter::label(const ViewPoint& at, const std::string& text, Colour colour,
   if (settings_.labels && !text.empty()) picture_.labels.push_back({at, text, colour, dx, dy, false, false});
 }
 
-void Painter::small_label(const ViewPoint& at, const std::string& text, Colour colour) {
-  if (settings_.labels && !text.empty()) picture_.labels.push_back({at, text, colour, 6, -8, true, false});
+void Painter::spare_label(const ViewPoint& at, const std::string& text, Colour colour, double dx, double dy) {
+  if (settings_.labels) picture_.labels.push_back({at, text, colour, dx, dy, false, false, true});
+}
+
+void Painter::small_label(const ViewPoint& at, const std::string& text, Colour colour, bool spare) {
+  if (settings_.labels && !text.empty()) picture_.labels.push_back({at, text, colour, 6, -8, true, false, spare});
 }
 
 const FrameVertex* Painter::vertex(int number) const {

@@ -35,7 +35,9 @@ class Painter {
   void grid();
   void mesh(const DisplayMesh& m, Colour colour, double opacity, const ViewPoint& offset);
   void label(const ViewPoint& at, const std::string& text, Colour colour, double dx = 9, double dy = -9);
-  void small_label(const ViewPoint& at, const std::string& text, Colour colour);
+  /// Where there is a free place.
+  void spare_label(const ViewPoint& at, const std::string& text, Colour colour, double dx, double dy);
+  void small_label(const ViewPoint& at, const std::string& text, Colour colour, bool spare = false);
   void mark_number(const ViewPoint& at, double value, double dx, double dy);
   void mark_selected(const ViewPoint& at) { picture_.points.push_back({at, palette_.text, 10, Mark::ring, -1}); }
 

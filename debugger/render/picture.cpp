@@ -46,11 +46,12 @@ double length_inside(const LabelBox& box, const Projected& p, const Projected& q
 double distance(const LabelBox& box, const Projected& p) { return std::hypot(std::max({box.x - p.x, 0.0, p.x - box.x - box.w}), std::max({box.y - p.y, 0.0, p.y - box.y - box.h})); }
 
 /// Finds every label the place around its point, inside the view, where it hides least of other labels, points and strong lines; the first of equals.
+/// A spare one is left out rather than lie over others.
 class LabelPlaces {
  public:
   LabelPlaces(const std::vector<FlatItem>& drawn, const ViewRectangle& view, double scale) : drawn_(drawn), view_(view), scale_(scale) {}
 
-  LabelBox take(const Projected& at, const PictureLabel& label) {
+  std::optional<LabelBox> take(const Projected& at, const PictureLabel& label) {
     const double w = (label.small ? 6 : 7) * static_cast<double>(label.text.size()), h = label.small ? 13 : 17, right = std::abs(label.dx), side = label.dy;
     const auto centred = [&](double dx, double dy) { return LabelBox{at.x + scale_ * dx, at.y + scale_ * (dy - h / 2), scale_ * w, scale_ * h}; };
     const std::array<LabelBox, 16> boxes{centred(label.dx, side), centred(-right - w, side), centred(right, -side), centred(-right - w, -side),
@@ -60,7 +61,8 @@ class LabelPlaces {
     const LabelBox* best = &boxes.front();
     double least = std::numeric_limits<double>::infinity();
     for (const LabelBox& box : boxes)
-      if (const double bad = hides(box) + misleads(box, at); bad < least) least = bad, best = &box;
+      if (const double bad = hides(box) + (label.spare ? distance(box, at) / scale_ : misleads(box, at)); bad < least) least = bad, best = &box;
+    if (label.spare && hides(*best) > 25 * scale_) return std::nullopt;
     taken_.push_back(*best);
     return *best;
   }
@@ -129,14 +131,19 @@ std::vector<FlatItem> placed_labels(const Picture& picture, const Projection& pr
   for (const PicturePoint& point : picture.kept_free) drawn.push_back(flat_point(point, project));
   LabelPlaces places(drawn, project.rectangle(), scale);
   std::vector<FlatItem> out;
-  for (const PictureLabel& label : picture.labels) {
+  std::vector<const PictureLabel*> in_turn;
+  for (const PictureLabel& label : picture.labels) in_turn.push_back(&label);
+  std::stable_partition(in_turn.begin(), in_turn.end(), [](const PictureLabel* label) { return !label->spare; });
+  for (const PictureLabel* next : in_turn) {
+    const PictureLabel& label = *next;
     const Projected at = project(label.at);
-    const LabelBox box = places.take(at, label);
-    taken.push_back(box);
-    if (auto line = leader(box, at, label, drawn, scale)) out.push_back(std::move(*line));
+    const std::optional<LabelBox> box = places.take(at, label);
+    if (!box) continue;
+    taken.push_back(*box);
+    if (auto line = leader(*box, at, label, drawn, scale)) out.push_back(std::move(*line));
     FlatItem item;
     item.kind = FlatItem::Kind::label;
-    item.points = {{box.x, box.y, at.depth}};
+    item.points = {{box->x, box->y, at.depth}};
     item.colour = label.colour, item.text = label.text, item.small = label.small;
     out.push_back(std::move(item));
   }

@@ -39,6 +39,7 @@ struct PictureLabel {
   double dx = 9, dy = -9;  ///< pixels from the point
   bool small = false;
   bool dot = false;  ///< names a dot, and may be joined by another name of it
+  bool spare = false;  ///< names no dot: gets its place after the others, or none where there is no free one
 };
 
 struct Picture {

@@ -30,11 +30,15 @@ ViewPoint row_offset(int body, int dimension, const Projection& projection) {
   return {0, (body % 2 == 0 ? 0.3 : -0.3) * half_view(projection), 0};
 }
 
+std::string facet_name(int dimension) { return dimension == 1 ? "endpoint" : dimension == 2 ? "edge" : "face"; }
+
+char vertex_letter(std::ptrdiff_t place) { return static_cast<char>('P' + place); }
+
 std::string simplex_letter(const Frame& frame, int vertex, bool newest_first) {
   const auto found = std::find(frame.lettered.begin(), frame.lettered.end(), vertex);
   if (found == frame.lettered.end()) return {};
   const auto from_newest = found - frame.lettered.begin(), from_oldest = frame.lettered.end() - found - 1;
-  return std::string(1, static_cast<char>('A' + (newest_first ? from_newest : from_oldest)));
+  return std::string(1, vertex_letter(newest_first ? from_newest : from_oldest));
 }
 
 namespace {
@@ -42,16 +46,21 @@ namespace {
 struct Bounds {
   ViewPoint low = ViewPoint::Constant(INFINITY), high = ViewPoint::Constant(-INFINITY);
   std::vector<ViewPoint> points;  ///< those that more than the box is wanted of
+  double around_origin = 0;       ///< the radius of a ball about the origin
   void add(const ViewPoint& p) { low = low.cwiseMin(p), high = high.cwiseMax(p); }
   void keep(const ViewPoint& p) { add(p), points.push_back(p); }
   Camera camera(int dimension) const {
     Camera c;
     c.target = (low + high) / 2;
-    const double size = (high - low).norm() / 2;
+    // From whichever side: of what is round the ball about the middle is smaller than the one about the box.
+    double size = around_origin > 0 ? c.target.norm() + around_origin : 0;
+    for (const ViewPoint& p : points) size = std::max(size, (p - c.target).norm());
     c.radius = size > 0 ? size * 1.15 : 1;
     c.flat = dimension < 3;
     return c;
   }
+  /// As far as a camera is drawn back for what is not in the bounds.
+  double farthest() const { return low == high ? 1.25 : 1.25 * 1.15 * (high - low).norm() / 2; }
 };
 
 /// An arrow that will be drawn, from `from`, as long as this share of the camera's radius.
@@ -71,7 +80,7 @@ struct Side {
   double shift() const { return high - low > 2 ? (high + low) / 2 : std::max(0.0, high - 1) + std::min(0.0, low + 1); }
 };
 
-/// Moves the camera and draws it back, by a quarter at most, until the arrows' tips are in view, as it looks at first. The arrows grow with the radius: a few rounds.
+/// Moves the camera and draws it back, to a quarter beyond the box's ball at most, until the arrows' tips are in view, as it looks at first. The arrows grow with the radius: a few rounds.
 Camera with_room_for(const std::vector<Arrow>& arrows, const Bounds& shown, int dimension) {
   constexpr double share = 0.93;  // of the view, so that the arrow's letter has room too
   const Camera tight = shown.camera(dimension);
@@ -86,7 +95,7 @@ Camera with_room_for(const std::vector<Arrow>& arrows, const Bounds& shown, int 
     for (const ViewPoint& p : shown.points) add(p);
     for (const Arrow& a : arrows) add(a.from + a.along * c.radius);
     c.target += view.move(across.shift(), down.shift());
-    c.radius = std::min(c.radius * std::max(across.wider(), down.wider()), 1.25 * tight.radius);
+    c.radius = std::min(c.radius * std::max(across.wider(), down.wider()), std::max(tight.radius, shown.farthest()));
   }
   return c;
 }
@@ -129,6 +138,7 @@ Camera fit_difference(const SceneMeshes& meshes, const Recording& recording) {
   if (meshes.radius > 0 && std::isfinite(meshes.radius)) {
     const ViewPoint r(meshes.radius, meshes.dimension > 1 ? meshes.radius : 0, meshes.dimension > 2 ? meshes.radius : 0);
     bounds.add(r), bounds.add(-r);
+    bounds.around_origin = meshes.radius;
   }
   std::vector<Arrow> arrows;
   for (const Event& event : recording.events) {

@@ -205,10 +205,14 @@ class WorldPainter : public Painter {
     label(b, "b", palette_.simplex, 9, 10);
   }
 
-  /// Where the window draws the rings and letters that a body is held by: labels keep off them.
+  /// Where the window draws the rings and letters that a body is held by: labels keep off them. Elsewhere the letters alone.
   void handles() {
     for (std::size_t i = 0; i < meshes_.bodies.size(); ++i) {
       const ViewPoint at = (moves() && frame_.step > 0 ? to_view(frame_.places[i].position) : middle(meshes_.bodies[i])) + one_d_offset(static_cast<int>(i));
+      if (settings_.body_letters) {
+        label(at, body_letter(static_cast<int>(i)), body_colour(static_cast<int>(i)).mixed(palette_.text), -4, 0);
+        continue;
+      }
       picture_.kept_free.push_back({at, palette_.text, 11, Mark::ring, -1});
       const double pixel = 1 / projection_.pixels_per_length();
       if (meshes_.dimension > 1) picture_.kept_free.push_back({at + (17 * projection_.right() + 13.5 * projection_.up()) * pixel, palette_.text, 5, Mark::disc, -1});

@@ -180,9 +180,11 @@ void App::picture_frame() {
   ImGui::Begin("picture", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
   ImGui::PopStyleVar();
   const float gap = theme.px(8), caption = theme.px(92);
+  settings.body_letters = true;
   view_panels(*this, {gap, gap, size.x - 2 * gap, size.y - caption - 2 * gap}, false);
+  settings.body_letters = false;
   begin_area("caption", {gap, size.y - caption, size.x - 2 * gap, caption - gap});
-  const Explanation e = explain(session.recording(), session.frame());
+  const Explanation e = explain(session.recording(), session.frame(), settings.newest_first);
   ImGui::PushFont(theme.title);
   ImGui::TextUnformatted(e.title.c_str());
   ImGui::PopFont();
@@ -210,7 +212,7 @@ void App::lecture_place(const std::string& place) {
 void App::lecture_panel(const Area& area) {
   if (begin_area("lecture", area)) {
     scrubber(*this);
-    const Explanation e = explain(session.recording(), session.frame());
+    const Explanation e = explain(session.recording(), session.frame(), settings.newest_first);
     ImGui::Dummy({0, theme.px(4)});
     ImGui::SetWindowFontScale(lecture_scale(ImGui::GetIO().DisplaySize.y) / 2);
     ImGui::PushFont(theme.lecture_title);

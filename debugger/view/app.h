@@ -130,6 +130,7 @@ void scrubber(App& app);
 void bounds_plot(App& app, float width, float height);
 void motion_plot(App& app, float width, float height);
 void lab_panel(App& app, const Area& area);
+void way_back(App& app);
 /// What a name in a picture stands for, with its numbers; empty where it says so itself.
 std::string meaning_of(const std::string& label, bool world, const Frame& frame, const Recording& recording);
 /// The two views, side by side or stacked, or the one chosen.
@@ -178,6 +179,8 @@ std::string result_text(const Recording& recording);
 std::string method_text(const Recording& recording);
 /// Where the two runs that are compared part, in the words that stand wherever it is said.
 std::string parting_text(const Session& session);
+/// Which of two runs that are compared is longer; empty where neither is.
+std::string ending_text(const Session& session);
 /// Whether two runs come to the same, within 1e-9.
 bool answers_agree(const Result& a, const Result& b);
 /// "Step 14 of 22 · EPA iteration 1"

@@ -24,8 +24,8 @@ void App::dialogs() {
   }
   const ImVec2 window = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowSize({std::min(theme.px(560), window.x - theme.px(20)), 0});
-  const bool find = asked_ == Asking::find;  // the views show what is found: below them, and nothing is dimmed
-  if (find) ImGui::SetNextWindowPos({window.x / 2, window.y - theme.px(10)}, ImGuiCond_Always, {0.5f, 1});
+  const bool find = asked_ == Asking::find;  // what is found is seen in the list, the sentence and the views: over these's titles, and nothing is dimmed
+  if (find) ImGui::SetNextWindowPos({window.x / 2, theme.px(6)}, ImGuiCond_Always, {0.5f, 0});
   ImGui::GetStyle().Colors[ImGuiCol_ModalWindowDimBg] = vec(theme.palette.background.with_alpha(find ? 0 : 0.6));  // read when the frame ends
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   const bool shown = ImGui::BeginPopupModal("ask", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoSavedSettings);
@@ -39,13 +39,10 @@ void App::dialogs() {
 }
 
 void App::find_dialog() {
-  ImGui::TextUnformatted("Find a step");
-  ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
-  ImGui::TextWrapped("A part of what the list shows, or of a step's sentence, or a condition: upper_bound < 1e-3, region.size == 3, status == stalled, any warning");
-  ImGui::PopStyleColor();
   if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
-  const bool entered = ImGui::InputText("##find", find_buffer_, sizeof find_buffer_, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  const bool entered = ImGui::InputTextWithHint("##find", "Find a step: a part of its row or sentence, or upper_bound < 1e-3", find_buffer_, sizeof find_buffer_, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("conditions: upper_bound < 1e-3    region.size == 3    status == stalled    any warning    … and …    … or …");
   if (entered) ImGui::SetKeyboardFocusHere(-1);
   const bool next = ImGui::Button("Next (F3)") || entered;
   ImGui::SameLine();
@@ -62,9 +59,12 @@ void App::find_dialog() {
       find_error_ = e.message();
     }
   }
-  if (!find_error_.empty()) ImGui::TextColored(vec(theme.palette.newest), "%s", find_error_.c_str());
-  else if (found_) ImGui::TextColored(vec(theme.palette.text_faint), "step %zu: %s", *found_, summary(session.recording(), *found_).c_str());
-  else ImGui::NewLine();  // the dialog keeps its height
+  const std::string told = !find_error_.empty() ? find_error_ : found_ ? "step " + std::to_string(*found_) + ": " + summary(session.recording(), *found_, settings.newest_first) : "";
+  if (told.empty()) return;
+  ImGui::SameLine(0, theme.px(12));
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextColored(vec(find_error_.empty() ? theme.palette.text_faint : theme.palette.newest), "%s", shortened(theme.text, told, ImGui::GetContentRegionAvail().x).c_str());
+  if (ImGui::IsItemHovered()) tooltip(theme, told);
 }
 
 void App::go_to_dialog() {

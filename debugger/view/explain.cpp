@@ -40,8 +40,8 @@ struct Explain : ExplainMotion {
       if (!against) continue;
       std::string rest;
       for (const int k : against->part)
-        if (k != static_cast<int>(i)) rest += static_cast<char>('A' + k);
-      const char letter = static_cast<char>('A' + i);
+        if (k != static_cast<int>(i)) rest.insert(newest_first ? rest.end() : rest.begin(), letter_at(static_cast<std::size_t>(k), points.size()));
+      const char letter = letter_at(i, points.size());
       std::string part = rest + letter;
       std::sort(part.begin(), part.end());
       text += std::string("; \xCE\xBB") + letter + " = " + short_number(weight) + " in " + part + ": the origin lies beyond " + (rest.size() == 1 ? "" : feature_name(rest.size()) + " ") + rest;
@@ -60,7 +60,6 @@ struct Explain : ExplainMotion {
 
   bool rounded() const { return gjkdbg::rounded(recording.scene.scene); }
   const char* bodies() const { return rounded() ? "cores" : "bodies"; }
-
   std::string a() const { return body_letter(frame.pair[0]); }
   std::string b() const { return body_letter(frame.pair[1]); }
   std::string difference() const { return a() + " - " + b(); }
@@ -104,8 +103,8 @@ struct Explain : ExplainMotion {
         return "No vertex lies beyond the chosen " + face + ": it is part of the boundary of " + difference() + ", and its distance" + with_the_radii(e) + " is the depth. Moving " + b() + " by " + short_number(e.depth) + " along " +
                short_vector(e.normal) + " just separates the bodies.";
       case EpaStatus::flat:
-        if (rounded()) return "The difference of the cores has no " + std::string(face == "edge" ? "area" : "volume") + ", and the origin lies in it: the depth, " + short_number(e.depth) + ", is that of the radii alone. The normal is across the flat difference.";
-        return difference() + " has no " + std::string(face == "edge" ? "area" : "volume") + " here: the " + bodies() + " touch without depth. The normal is across the flat difference.";
+        if (rounded()) return "The difference of the cores has no " + measure() + ", and the origin lies in it: the depth, " + short_number(e.depth) + ", is that of the radii alone. The normal is across the flat difference.";
+        return difference() + " has no " + measure() + " here: the " + bodies() + " touch without depth. The normal is across the flat difference.";
       case EpaStatus::separated: return "A support plane has the origin on its far side: the bodies are apart after all, by less than GJK could tell.";
       case EpaStatus::stalled: return "No " + face + " can be added in this precision. The last good " + face + " is the answer, and the bounds say how exact it is.";
       case EpaStatus::iteration_limit: return "The limit is reached before the bounds met, as on round shapes with many directions equally good. The bounds say how much is known.";
@@ -161,6 +160,8 @@ struct Explain : ExplainMotion {
   }
 
   std::string facet() const { return facet_name(recording); }
+  std::string measure() const { return recording.scene.scene.dimension == 1 ? "length" : recording.scene.scene.dimension == 2 ? "area" : "volume"; }
+  static std::string capital(std::string word) { return word[0] = static_cast<char>(word[0] - 'a' + 'A'), word; }
 
   /// How far EPA's support reaches, against the face chosen before it, and what comes of it.
   std::string reach_across(const recorded::SupportQueried& e) const {
@@ -174,7 +175,6 @@ struct Explain : ExplainMotion {
 
   /// Whether directions other than -v are asked for.
   bool led() const { return recording.settings.name == MethodName::gjk_accelerated; }
-
   bool ends_here() const { return frame.step + 1 < recording.events.size() && std::holds_alternative<recorded::GjkEnded>(recording.events[frame.step + 1]); }
 
   /// v of the simplex before this step; null where there is none.
@@ -196,8 +196,8 @@ struct Explain : ExplainMotion {
 
   /// What a solver keeps may be wrong, and no reason is given for it: the findings and the way to go on from here stand below.
   Explanation solver_keeps(const recorded::SimplexReduced& e) const {
-    const std::string kept = letters(e.region, e.before), all = letters(e.before, e.before), part = feature_name(e.region.size()) + " " + kept;
-    std::string text = e.before.size() <= e.region.size() ? "The solver keeps the " + part : "Of " + all + ", the solver keeps the " + part + " and drops " + letters(frame.dropped, e.before);
+    const std::string kept = letters(e.region, e.before, newest_first), all = letters(e.before, e.before, newest_first), part = feature_name(e.region.size()) + " " + kept;
+    std::string text = e.before.size() <= e.region.size() ? "The solver keeps the " + part : "Of " + all + ", the solver keeps the " + part + " and drops " + letters(frame.dropped, e.before, newest_first);
     if (e.closest.size() > 0) text += ". It gives v = " + short_vector(e.closest) + ", |v| = " + short_number(e.closest.norm()) + " for the point nearest the origin";
     return {e.before.size() <= e.region.size() ? "The whole " + feature_name(e.region.size()) + " is kept" : "Simplex cut to " + part, text + "."};
   }
@@ -206,13 +206,13 @@ struct Explain : ExplainMotion {
     if (foreign(recording)) return solver_keeps(e);
     if (e.before.size() == 1 && e.closest.size() > 0)
       return {"The simplex is one vertex", "So the nearest point is that vertex: v = " + short_vector(e.closest) + ", |v| = " + short_number(e.closest.norm()) + (led() || ends_here() ? "." : "; the search goes on along -v, towards the origin.")};
-    const std::string kept = letters(e.region, e.before), all = letters(e.before, e.before);
+    const std::string kept = letters(e.region, e.before, newest_first), all = letters(e.before, e.before, newest_first);
     const std::string title = e.before.size() == e.region.size() ? "The whole " + feature_name(e.region.size()) + " is kept" : "Simplex cut to " + feature_name(e.region.size()) + " " + kept;
     std::string text;
     if (e.before.size() == e.region.size()) {
       text = "Every vertex of " + all + " is needed" + foot_within(e);
     } else {
-      text = "Of " + all + ", the " + feature_name(e.region.size()) + " " + kept + " is nearest the origin; " + letters(frame.dropped, e.before) + (frame.dropped.size() == 1 ? " is" : " are") + " dropped: no part with " +
+      text = "Of " + all + ", the " + feature_name(e.region.size()) + " " + kept + " is nearest the origin; " + letters(frame.dropped, e.before, newest_first) + (frame.dropped.size() == 1 ? " is" : " are") + " dropped: no part with " +
              (frame.dropped.size() == 1 ? "it" : "them") + " is nearer";
     }
     text += why_dropped(e);
@@ -232,7 +232,7 @@ struct Explain : ExplainMotion {
   /// Of the form that computes no nearest point: the end says whether the region holds the origin.
   std::string what_the_region_means(const recorded::SimplexReduced& e) const {
     const auto* end = ends_here() ? std::get_if<recorded::GjkEnded>(&recording.events[frame.step + 1]) : nullptr;
-    const std::string part = feature_name(e.region.size()) + " " + letters(e.region, e.before);
+    const std::string part = feature_name(e.region.size()) + " " + letters(e.region, e.before, newest_first);
     if (!end) return " The next direction leads from it to the origin.";
     if (end->status == GjkStatus::enclosed) return " The origin lies in the " + part + ": the " + bodies() + " overlap.";
     if (end->status == GjkStatus::touching) return " The origin lies on the " + part + ", within rounding: the " + bodies() + " touch or overlap.";
@@ -261,7 +261,7 @@ struct Explain : ExplainMotion {
 
   Explanation operator()(const recorded::FaceChosen& e) const {
     if (foreign(recording)) return {"The solver's nearest " + facet(), "It takes " + facet() + " " + std::to_string(e.face) + vertices_of(e.face) + " for the nearest to the origin, and gives " + short_number(e.distance) + " for its distance, " + short_vector(e.normal) + " for its normal."};
-    return {"Nearest " + facet() + " chosen", std::string(facet() == "edge" ? "Edge " : "Face ") + std::to_string(e.face) + " is nearest the origin, at " + short_number(e.distance) + ". The depth is at least that. Is there anything of " + difference() + " beyond it?"};
+    return {"Nearest " + facet() + " chosen", capital(facet()) + " " + std::to_string(e.face) + " is nearest the origin, at " + short_number(e.distance) + ". The depth is at least that. Is there anything of " + difference() + " beyond it?"};
   }
 
   Explanation operator()(const recorded::PolytopeGrown& e) const {
@@ -395,6 +395,6 @@ bool rounded(const Scene& scene) {
   return std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& b) { return b.shape.margin > 0 || std::holds_alternative<Sphere>(b.shape.geometry) || std::holds_alternative<Capsule>(b.shape.geometry); });
 }
 
-Explanation explain(const Recording& recording, const Frame& frame) { return std::visit(Explain{recording, frame}, recording.events[frame.step]); }
+Explanation explain(const Recording& recording, const Frame& frame, bool newest_first) { return std::visit(Explain{{recording, frame, newest_first}}, recording.events[frame.step]); }
 
 }  // namespace gjkdbg

@@ -13,10 +13,11 @@ struct Explanation {
   std::string text;   ///< one or two sentences: what happened and why
 };
 
-Explanation explain(const Recording& recording, const Frame& frame);
+/// `newest_first`: as the letters count, see simplex_letter.
+Explanation explain(const Recording& recording, const Frame& frame, bool newest_first = true);
 
-/// One line for a list: "w = (…)", "B A → A".
-std::string summary(const Recording& recording, std::size_t step);
+/// One line for a list: "w = (…)", "PQ → P".
+std::string summary(const Recording& recording, std::size_t step, bool newest_first = true);
 
 struct PseudoCode {
   std::string title;
@@ -33,10 +34,10 @@ bool meets_at(const Recording& recording, std::size_t step);
 bool of_two_boxes(const Recording& recording, std::size_t step);
 /// The name it has in the scene; "body 0" where it has none.
 std::string body_name(const Recording& recording, int body);
-/// What a polytope's border consists of: "face"; in the plane "edge".
+/// What a polytope's border consists of: "face"; in the plane "edge", on a line "endpoint".
 std::string facet_name(const Recording& recording);
-/// Vertices as A, B, C, D: by their places in `order`.
-std::string letters(const std::vector<int>& vertices, const std::vector<int>& order);
+/// Vertices as P, Q, R, S: by their places in `order`, from its end where not `newest_first`.
+std::string letters(const std::vector<int>& vertices, const std::vector<int>& order, bool newest_first = true);
 
 /// Short decimal: six significant digits.
 std::string short_number(double x);

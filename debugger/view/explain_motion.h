@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "debugger/render/step_pictures.h"
 #include "debugger/view/explain.h"
 
 namespace gjkdbg {
@@ -13,6 +14,9 @@ std::string in_words(std::string_view name);
 struct ExplainMotion {
   const Recording& recording;
   const Frame& frame;
+  bool newest_first = true;  ///< P is the newest vertex of a simplex; else the oldest
+
+  char letter_at(std::size_t place, std::size_t of) const { return vertex_letter(static_cast<std::ptrdiff_t>(newest_first ? place : of - 1 - place)); }
 
   Explanation operator()(const recorded::CastBegan& e) const;
   Explanation operator()(const recorded::CastAdvanced& e) const;

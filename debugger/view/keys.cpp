@@ -33,7 +33,8 @@ void App::control_keys(bool shift) {
   if (key_pressed(Key::g)) ask(Asking::go_to);
   if (key_pressed(Key::q)) quit = true;
   if (key_pressed(Key::c)) {
-    ImGui::SetClipboardText(shift ? scene_as_cpp(session.scene()).c_str() : (pretty_json(scene_to_json(session.scene())) + "\n").c_str());
+    const SceneFile kept = session.scene_to_keep();
+    ImGui::SetClipboardText(shift ? scene_as_cpp(kept).c_str() : (pretty_json(scene_to_json(kept)) + "\n").c_str());
     note(shift ? "the scene is copied as C++" : "the scene is copied as JSON");
   }
 }

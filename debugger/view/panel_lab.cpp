@@ -97,13 +97,29 @@ void atlas_area(App& app, ImVec2 at, ImVec2 size) {
 
 void open_measured(App& app, SceneFile scene, const std::string& title) {
   try {
-    app.session.open(std::move(scene), title);
+    app.session.open_for_a_look(std::move(scene), title);
     app.session.go_to(app.session.findings().empty() ? app.session.count() - 1 : app.session.findings().front().step);
     app.message.clear(), app.settings.selected.reset();
     app.show_lab = false;
   } catch (const Error& e) {
     app.message = e.line();
   }
+}
+
+/// Above a scene that a dot or a cell has opened: to where it stands, and to what was open before.
+void way_back(App& app) {
+  const std::string* before = app.session.waiting_title();
+  if (!before) return;
+  ImGui::PushFont(app.theme.small);
+  const float room = ImGui::GetContentRegionAvail().x;
+  if (ImGui::Button(app.lab_tab == App::LabTab::chart ? "Back to the chart (X)" : "Back to the atlas (X)")) app.show_lab = true;
+  const std::string name = shortened(app.theme.small, "Back to " + *before, room - app.theme.px(16));
+  const ImVec2 pad = ImGui::GetStyle().FramePadding;
+  ImGui::SameLine(0, app.theme.px(6));
+  if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize(name.c_str()).x + 2 * pad.x) ImGui::NewLine();
+  const bool taken = ImGui::Button((name + "##before").c_str());
+  ImGui::PopFont();
+  if (taken) app.session.take_up_again(), app.settings.selected.reset();
 }
 
 void lab_panel(App& app, const Area& area) {
@@ -117,9 +133,11 @@ void lab_panel(App& app, const Area& area) {
     if (app.measuring) ImGui::TextColored(vec(theme.palette.text_soft), "measuring, some seconds ...");
     else if (ImGui::Button(there ? "Measure again" : "Measure now")) app.measure_requested = chart ? "chart" : "atlas";
     ImGui::SameLine();
-    const float right = ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize("Back to the scene").x - theme.px(18);
+    const std::string* before = app.session.waiting_title();  // what was open before those that dots have opened
+    const std::string back = "Back to " + (before ? shortened(theme.text, *before, theme.px(220)) : "the scene");
+    const float right = ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(back.c_str()).x - theme.px(18);
     if (right > ImGui::GetCursorPosX()) ImGui::SetCursorPosX(right);
-    if (ImGui::Button("Back to the scene")) app.show_lab = false;
+    if (ImGui::Button(back.c_str())) app.session.take_up_again(), app.show_lab = false;
     if (chart && there) {
       for (const auto& [name, value] : {std::pair("error", App::ChartView::error), {"certified gap", App::ChartView::gap}, {"iterations", App::ChartView::iterations}, {"price of modelling", App::ChartView::price}, {"motion", App::ChartView::motion}}) {
         if (tab_button(theme, name, app.chart_view == value)) app.chart_view = value;

@@ -91,6 +91,54 @@ float dashed_piece(const Theme& theme, ImVec2 a, ImVec2 b, Colour colour, float 
   return drawn + length;
 }
 
+/// SAT has no bounds that close in, but an axis after another: how far the bodies are apart along each, or overlap.
+void axes_plot(App& app, float width, float height) {
+  const Theme& theme = app.theme;
+  const Palette& p = theme.palette;
+  Session& s = app.session;
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const ImVec2 at = plot_frame(theme, width, height, "along each axis");
+  key_entry(theme, key_entry(theme, at.x + theme.px(120), at.y + theme.px(6), "gap", p.support, false), at.y + theme.px(6), "overlap", p.chosen, false);
+  double low = 0, high = 0;
+  for (const Event& event : s.recording().events)
+    if (const auto* e = std::get_if<recorded::AxisTested>(&event)) low = std::min(low, e->distance), high = std::max(high, e->distance);
+  const ImVec2 from{at.x + theme.px(64), at.y + theme.px(34)}, to{at.x + width - theme.px(14), at.y + height - theme.px(16)};
+  const auto y_of = [&](double distance) { return to.y - static_cast<float>((distance - low) / std::max(high - low, 1e-300)) * (to.y - from.y); };
+  const auto x_of = [&](std::size_t step) { return from.x + static_cast<float>(step) / static_cast<float>(std::max<std::size_t>(1, s.count() - 1)) * (to.x - from.x); };
+  for (const double value : {low, 0.0, high}) {
+    if (value != 0 && std::abs(y_of(value) - y_of(0)) < theme.px(10)) continue;
+    draw->AddLine({from.x, y_of(value)}, {to.x, y_of(value)}, packed(value == 0 ? p.text_faint : p.field), 1);
+    draw->AddText(theme.small, theme.small->FontSize * 0.85f, {at.x + theme.px(8), y_of(value) - theme.px(6)}, packed(p.text_faint), short_number(value).c_str());
+  }
+  draw->AddLine({x_of(s.step()), from.y}, {x_of(s.step()), to.y}, packed(p.text.with_alpha(0.6)), 1);
+  Pointed pointed;
+  double best = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < s.count(); ++i) {
+    const auto* e = std::get_if<recorded::AxisTested>(&s.recording().events[i]);
+    if (!e) continue;
+    const ImVec2 here{x_of(i), y_of(e->distance)};
+    const Colour colour = e->distance > 0 ? p.support : p.chosen;
+    const bool better = e->distance > best;
+    best = std::max(best, e->distance);
+    draw->AddLine({here.x, y_of(0)}, here, packed(colour.with_alpha(better ? 1 : 0.4)), theme.px(2));
+    draw->AddCircleFilled(here, theme.px(better ? 4.f : 2.5f), packed(colour.with_alpha(better ? 1 : 0.6)));
+    if (pointed.over) pointed.take(here, i, (e->distance > 0 ? "a gap of " : "an overlap of ") + short_number(std::abs(e->distance)) + (better ? ", the best axis so far" : ""));
+  }
+  pointed.show(app);
+}
+
+/// Why there is nothing that closes in.
+const char* why_no_curve(const Recording& recording) {
+  switch (recording.settings.name) {
+    case MethodName::gjk_boolean: return "Only yes or no is asked: this\nmethod keeps no bounds.";
+    case MethodName::closed_form: return "A formula gives the answer at once:\nno bounds close in.";
+    case MethodName::projections: return "Only the last support proves the\ndistance: no bounds close in.";
+    case MethodName::mpr: return "Yes or no is all that is asked:\nno bounds close in.";
+    case MethodName::sat: return "One axis is proof enough:\nno bounds close in.";
+    default: return "This run is over before bounds\ncould close in.";
+  }
+}
+
 /// The length of the momentum, from 0 to its greatest, which stands at the right.
 void momentum_curve(App& app, ImVec2 from, ImVec2 to, double first, double last) {
   double most = 0;
@@ -118,11 +166,17 @@ void bounds_plot(App& app, float width, float height) {
   const Theme& theme = app.theme;
   const Palette& p = theme.palette;
   ImDrawList* draw = ImGui::GetWindowDrawList();
+  const std::vector<Sample> samples = samples_of(s.recording()), others = s.comparing() ? samples_of(s.other()) : std::vector<Sample>();
+  const auto is_axis = [](const Event& event) { return std::holds_alternative<recorded::AxisTested>(event); };
+  const auto is_gjk = [](const Event& event) { return std::holds_alternative<recorded::GjkBegan>(event); };
+  const std::vector<Event>& events = s.recording().events;
+  if (others.size() <= 1 && std::count_if(events.begin(), events.end(), is_axis) > 1 && std::none_of(events.begin(), events.end(), is_gjk)) return axes_plot(app, width, height);
   const ImVec2 at = plot_frame(theme, width, height, "gap between the bounds, log scale");
   if (s.comparing() && width > theme.px(310)) key_entry(theme, at.x + theme.px(232), at.y + theme.px(6), "beside", p.text_soft, false);
-  const std::vector<Sample> samples = samples_of(s.recording()), others = s.comparing() ? samples_of(s.other()) : std::vector<Sample>();
-  if (samples.empty() && others.empty()) {
-    draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(12), at.y + theme.px(32)}, packed(p.text_faint), "This run tells no bounds.");
+  if (samples.size() <= 1 && others.empty()) {
+    const std::string why = foreign(s.recording()) ? "This run tells no bounds." : why_no_curve(s.recording());
+    const std::string apart = samples.empty() ? "" : " At its end they are\n" + short_number(samples[0].gap) + " apart.";
+    draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(12), at.y + theme.px(32)}, packed(p.text_soft), (why + apart).c_str());
     return;
   }
   const Settings& settings = s.recording().settings;

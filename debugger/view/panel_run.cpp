@@ -55,6 +55,8 @@ void compare_section(App& app) {
   } else {
     wrapped(parting_text(s), theme.palette.text_soft);
   }
+  if (ImGui::Button("Swap the two runs")) s.swap_compared(method_text(s.recording()));
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("the run beside comes here: its steps can be gone through, to its end");
   ImGui::PopFont();
 }
 

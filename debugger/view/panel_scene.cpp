@@ -300,10 +300,10 @@ void scene_panel(App& app) {
   SceneFile next = app.session.scene();
   if (!next.scene.description.empty()) {
     ImGui::PushFont(theme.small);
-    wrapped(next.scene.description, theme.palette.text_soft);
+    wrapped(next.scene.description, app.session.can_undo() ? theme.palette.text_faint : theme.palette.text_soft);
     // On a line that is there before, too: what is edited stays where it is.
     const std::string source = next.scene.source.empty() ? "" : "Source: " + next.scene.source;
-    wrapped(source + (!app.session.can_undo() ? " " : source.empty() ? "Edited since." : ", edited since"), theme.palette.text_faint);
+    wrapped(source + (!app.session.can_undo() ? " " : source.empty() ? "As it was: edited since." : ", edited since"), theme.palette.text_faint);
     ImGui::PopFont();
   }
   const bool was_active = ImGui::IsAnyItemActive();
@@ -331,7 +331,7 @@ void scene_panel(App& app) {
   ImGui::Checkbox("bounds as rings", &p.bounds);
   ImGui::Checkbox("dropped and removed", &p.dropped);
   ImGui::Checkbox("labels", &p.labels);
-  ImGui::Checkbox("A is the newest vertex", &p.newest_first);
+  ImGui::Checkbox("P is the newest vertex", &p.newest_first);
   ImGui::Checkbox("grid", &p.grid);
   ImGui::Checkbox("cameras linked", &p.linked_cameras);
 }

@@ -46,7 +46,7 @@ std::string triangle_name(Session& session) {
 void heading(App& app) {
   Session& session = app.session;
   const Theme& theme = app.theme;
-  const Explanation e = explain(session.recording(), session.frame());
+  const Explanation e = explain(session.recording(), session.frame(), app.settings.newest_first);
   ImGui::PushFont(theme.small);
   const std::string time = session.frame().time ? "  \xC2\xB7  time " + short_number(*session.frame().time) : "";
   ImGui::TextColored(vec(theme.palette.text_faint), "%s", shortened(theme.small, place_text(session) + time, ImGui::GetContentRegionAvail().x).c_str());
@@ -105,7 +105,7 @@ void regions(App& app) {
   const float right = ImGui::GetWindowContentRegionMax().x;
   for (const RegionTest& test : region_tests(points)) {
     std::string part, why;
-    for (const int i : test.part) part += static_cast<char>('A' + (app.settings.newest_first ? i : static_cast<int>(points.size()) - 1 - i));
+    for (const int i : test.part) part += vertex_letter(app.settings.newest_first ? i : static_cast<int>(points.size()) - 1 - i);
     const std::size_t least = static_cast<std::size_t>(std::min_element(test.weights.begin(), test.weights.end()) - test.weights.begin());
     if (!test.holds_projection) why = std::string("\xCE\xBB") + part[least] + " " + at_the_point(test.weights[least]);
     else why = at_the_point(test.distance);
@@ -278,6 +278,7 @@ std::string place_text(Session& session) {
 
 void step_panel(App& app, const Area& area) {
   if (!begin_area("step", area, true)) return ImGui::EndChild();
+  way_back(app);
   heading(app);
   scene_note(app);
   right_note(app);

@@ -258,7 +258,7 @@ void scrubber(App& app) {
   marks(app, draw, at.x, at.y + size.y, cell);
   if (!hovered || held) return;
   const auto under = static_cast<std::size_t>(std::clamp((ImGui::GetIO().MousePos.x - at.x) / cell, 0.f, count - 1));
-  ImGui::SetTooltip("step %zu  %s  %s", under, short_kind(s.recording().events[under]), summary(s.recording(), under).c_str());
+  ImGui::SetTooltip("step %zu  %s  %s", under, short_kind(s.recording().events[under]), summary(s.recording(), under, app.settings.newest_first).c_str());
 }
 
 namespace {
@@ -353,7 +353,7 @@ void event_list(App& app, float width, float height) {
       const ImVec2 left = ImGui::GetCursorScreenPos();
       const float end = ImGui::GetContentRegionAvail().x;
       if (ImGui::Selectable("##row", s.step() == k)) s.playing = false, s.go_to(k);
-      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s: %s", short_kind(event), summary(s.recording(), k).c_str());  // a row may be cut off
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s: %s", short_kind(event), summary(s.recording(), k, app.settings.newest_first).c_str());  // a row may be cut off
       row_marks(app, k, left);
       ImGui::SameLine(theme.px(18));
       ImGui::TextColored(vec(theme.palette.text_faint), "%5d", i);
@@ -363,7 +363,7 @@ void event_list(App& app, float width, float height) {
       ImGui::SameLine(theme.px(88));
       ImGui::TextUnformatted(short_kind(event));
       ImGui::SameLine(theme.px(164));
-      ImGui::TextColored(vec(theme.palette.text_soft), "%s", shortened(theme.mono, summary(s.recording(), k), end - theme.px(164)).c_str());
+      ImGui::TextColored(vec(theme.palette.text_soft), "%s", shortened(theme.mono, summary(s.recording(), k, app.settings.newest_first), end - theme.px(164)).c_str());
       ImGui::PopID();
     }
   ImGui::EndChild();

@@ -102,8 +102,8 @@ void body_handles(App& app, const Projection& projection, ImDrawList* draw, Held
     const std::string letter = body_letter(i);
     const bool near = ImGui::IsItemHovered() && distance(mouse, h.centre) < h.radius + app.theme.px(3);
     const bool near_disc = ImGui::IsItemHovered() && dimension > 1 && !near && distance(mouse, h.disc) < app.theme.px(7);
-    if (dimension == 1) draw->AddCircleFilled(h.centre, h.radius, packed(app.theme.palette.view), 24);  // on the bar of its own colour
-    draw->AddCircle(h.centre, h.radius, packed(colour.with_alpha(near || (held.body == i && !held.turning) ? 1 : 0.55)), 24, app.theme.px(2));
+    draw->AddCircleFilled(h.centre, h.radius, packed(app.theme.palette.view.with_alpha(dimension == 1 ? 1 : 0.75)), 24);  // the letter lies on a body of its own colour
+    draw->AddCircle(h.centre, h.radius, packed(colour.with_alpha(near || (held.body == i && !held.turning) ? 1 : 0.7)), 24, app.theme.px(2));
     if (dimension > 1) draw->AddCircleFilled(h.disc, app.theme.px(3.5f), packed(colour.with_alpha(near_disc || (held.body == i && held.turning) ? 1 : 0.6)), 16);
     body_name(app, h.centre, letter, colour);
     if (near && held.body < 0) ImGui::SetTooltip("drag: move %s", letter.c_str());
@@ -136,8 +136,9 @@ void body_letters(App& app, const Projection& projection) {
   for (int i = 0; i < static_cast<int>(places.size()); ++i) {
     const int dimension = app.session.meshes().dimension;
     const ImVec2 c = at(projection(to_view(places[static_cast<std::size_t>(i)].position) + row_offset(i, dimension, projection)));
-    const Colour colour = dimension == 1 ? app.theme.palette.view : letter_colour(app, i);  // on the line, which has the body's colour
-    body_name(app, c, body_letter(i), colour);
+    // On a body, which has the letter's colour.
+    ImGui::GetWindowDrawList()->AddCircleFilled(c, app.theme.px(dimension == 1 ? 8.f : 7.f) * app.theme.marks, packed(app.theme.palette.view.with_alpha(dimension == 1 ? 1 : 0.75)), 24);
+    body_name(app, c, body_letter(i), letter_colour(app, i));
   }
 }
 
@@ -211,7 +212,8 @@ void one_view(App& app, const Area& area, const Shown& shown, bool interactive, 
   ImGui::PopStyleVar();  // tooltips have their padding
   ImDrawList* draw = ImGui::GetWindowDrawList();
   Camera& camera = shown.world ? app.world_camera : app.difference_camera;
-  const double header = theme.px(48);
+  const float large = std::max(1.f, theme.marks / 1.4f);  // in a hall, as large as the sentence
+  const double header = theme.px(48) * large;
   const Projection projection(camera, {area.x, area.y + header * 0.6, area.width, area.height - header * 0.6});
   const auto make = shown.world ? world_picture : difference_picture;
   const Recording& recording = shown.other ? s.other() : s.recording();
@@ -219,13 +221,13 @@ void one_view(App& app, const Area& area, const Shown& shown, bool interactive, 
   draw_items(draw, items, theme);
   // What is drawn fades out below the title.
   const ImU32 cover = packed(theme.palette.view), clear = packed(theme.palette.view.with_alpha(0));
-  const float solid = theme.px(38), faded = theme.px(56);
+  const float solid = theme.px(38) * large, faded = theme.px(56) * large;
   draw->AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + solid}, packed(theme.palette.view.with_alpha(1)));
   draw->AddRectFilledMultiColor({area.x, area.y + solid}, {area.x + area.width, area.y + faded}, cover, cover, clear, clear);
   const ImVec2 title{area.x + theme.px(14), area.y + theme.px(10)};
   const float room = area.x + area.width - theme.px(8) - title.x;
-  draw->AddText(theme.text, theme.text->FontSize, title, packed(shown.other ? theme.palette.text_soft : theme.palette.text), shortened(theme.text, title_of(app, shown), room).c_str());
-  draw->AddText(theme.small, theme.small->FontSize, {title.x, title.y + theme.px(20)}, packed(theme.palette.text_faint), shortened(theme.small, subtitle_of(app, shown), room).c_str());
+  draw->AddText(theme.text, theme.text->FontSize * large, title, packed(shown.other ? theme.palette.text_soft : theme.palette.text), shortened(theme.text, title_of(app, shown), room / large).c_str());
+  draw->AddText(theme.small, theme.small->FontSize * large, {title.x, title.y + theme.px(20) * large}, packed(theme.palette.text_faint), shortened(theme.small, subtitle_of(app, shown), room / large).c_str());
   if (interactive) interact(app, area, shown, camera, projection, items, pointed);
   ImGui::EndChild();
   ImGui::PopStyleColor();

@@ -100,9 +100,11 @@ struct PseudoCodeOf {
 
   // --- EPA --------------------------------------------------------------------------------------------------------
   PseudoCode epa(int line) const {
+    if (recording.scene.scene.dimension == 1)
+      return {"EPA", {"polytope = simplex, completed round O", "repeat", "  e = its endpoint nearest O", "  w = support(normal of e)", "  if w not beyond e: depth = |e|", "  remove e", "  w is an endpoint"}, line};
     if (recording.scene.scene.dimension == 2)
-      return {"EPA", {"P = simplex, completed to enclose O", "repeat", "  e = edge of P nearest O", "  w = support(normal of e)", rounded(recording.scene.scene) ? "  if w not beyond e: |e| + radii" : "  if w not beyond e: depth = |e|", "  remove the edges w sees", "  join the ends of the gap to w"}, line};
-    return {"EPA", {"P = simplex, completed to enclose O", "repeat", "  f = face of P nearest O", "  w = support(normal of f)", rounded(recording.scene.scene) ? "  if w not beyond f: |f| + radii" : "  if w not beyond f: depth = |f|", "  remove the faces w sees", "  join the horizon to w"}, line};
+      return {"EPA", {"polytope = simplex, completed round O", "repeat", "  e = its edge nearest O", "  w = support(normal of e)", rounded(recording.scene.scene) ? "  if w not beyond e: |e| + radii" : "  if w not beyond e: depth = |e|", "  remove the edges w sees", "  join the ends of the gap to w"}, line};
+    return {"EPA", {"polytope = simplex, completed round O", "repeat", "  f = its face nearest O", "  w = support(normal of f)", rounded(recording.scene.scene) ? "  if w not beyond f: |f| + radii" : "  if w not beyond f: depth = |f|", "  remove the faces w sees", "  join the horizon to w"}, line};
   }
   PseudoCode operator()(const recorded::PolytopeSeeded&) const { return epa(0); }
   PseudoCode operator()(const recorded::FaceChosen&) const { return epa(2); }

@@ -6,6 +6,7 @@
 #include "algo/solve.h"
 #include "debugger/view/explain.h"
 #include "recordings/json_reading.h"
+#include "recordings/json_writing.h"
 
 namespace gjkdbg {
 
@@ -92,7 +93,7 @@ void Session::open(Recording recording, std::string title) {
 void Session::begin(std::string title) {
   title_ = std::move(title);
   undo_.clear(), redo_.clear(), breakpoints.clear(), bookmarks.clear();
-  loop_from.reset(), loop_to.reset();
+  loop_from.reset(), loop_to.reset(), waiting_.reset();
   stop_comparing();
   playing = false;
   step_ = 0;
@@ -137,36 +138,6 @@ std::string Session::compare_with(const Method& method, std::string title) {
   } catch (const Error& e) {
     return in_the_panels_words(e);
   }
-}
-
-void Session::solve_other() {
-  SceneFile scene = recording_.scene;
-  scene.method = *other_method_;
-  try {
-    Recording run = record(scene);
-    const std::optional<Method> method = other_method_;
-    compare_with(std::move(run), other_title_);
-    other_method_ = method;
-  } catch (const Error&) {
-    stop_comparing();  // the scene has become one that the other method does not take
-  }
-}
-
-void Session::compare_with(Recording recording, std::string title) {
-  if (recording.events.empty()) throw Error("no-events", "holds no events", "/events");
-  SceneMeshes meshes = scene_meshes(recording.scene.scene);
-  stop_comparing();
-  other_ = std::move(recording);
-  other_meshes_ = std::move(meshes);
-  other_replay_.emplace(other_);
-  other_title_ = std::move(title);
-  parting_ = (recording_.settings.scalar == other_.settings.scalar ? first_difference : first_other_way)(recording_, other_);
-}
-
-void Session::stop_comparing() {
-  other_replay_.reset();
-  other_method_.reset();
-  parting_.reset();
 }
 
 void Session::go_to(std::size_t step) { step_ = std::min(step, count() - 1); }
@@ -303,6 +274,19 @@ std::string Session::edit(const SceneFile& next) {
   } catch (const Error& e) {
     return in_the_panels_words(e);
   }
+}
+
+SceneFile Session::scene_to_keep() const {
+  SceneFile kept = scene();
+  std::string& description = kept.scene.description;
+  const std::string edited = "edited, from: ";
+  if (undo_.empty() || description.empty() || description.starts_with(edited)) return kept;
+  const auto described = [](const SceneFile& file) {
+    auto json = scene_to_json(file);
+    return std::pair(json["bodies"], json["query"]);
+  };
+  if (described(undo_.front().scene) != described(kept)) description = edited + description;
+  return kept;
 }
 
 void Session::go_back_to(Past past) {

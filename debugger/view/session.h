@@ -16,16 +16,29 @@
 
 namespace gjkdbg {
 
+/// Of two runs whose events are not of the same kinds one may only put down more: whether they go the same way is told by their supports.
+struct SharedSupports {
+  std::size_t first = 0;  ///< so many are the same
+  bool all = false;       ///< and one of the runs has no more
+};
+
 class Session {
  public:
   /// Opens a scene, or a recording as it is. Throws Error; then nothing has changed.
   void open(const std::filesystem::path& file);
   void open(SceneFile scene, std::string title);
   void open(Recording recording, std::string title);
+  /// Opens a scene for a look: what was open before waits, with its step, its marks and its history, until `take_up_again` or another opening.
+  void open_for_a_look(SceneFile scene, std::string title);
+  /// Of what waits; null where nothing does.
+  const std::string* waiting_title() const { return waiting_ ? &waiting_->title : nullptr; }
+  void take_up_again();
 
   bool is_open() const { return replay_.has_value(); }
   const std::string& title() const { return title_; }
   const SceneFile& scene() const { return recording_.scene; }
+  /// To be saved or copied: where its bodies or its query have been edited the description says so, for it is of the scene as it was.
+  SceneFile scene_to_keep() const;
   const Recording& recording() const { return recording_; }
   const Frame& frame() { return replay_->at(step_); }
   const SceneMeshes& meshes() const { return meshes_; }
@@ -65,6 +78,8 @@ class Session {
   /// Another recording, as it is.
   void compare_with(Recording recording, std::string title);
   void stop_comparing();
+  /// The run beside comes here and this one beside it: the way to the steps of the longer one. `title`: of this one, beside.
+  void swap_compared(std::string title);
   bool comparing() const { return other_replay_.has_value(); }
   const Recording& other() const { return other_; }
   const std::string& other_title() const { return other_title_; }
@@ -72,8 +87,13 @@ class Session {
   /// Which of the other run's steps is beside this one: the same, or its last; beside the last of this run its last, however long it is.
   std::size_t other_step() const { return step_ + 1 == count() ? other_.events.size() - 1 : std::min(step_, other_.events.size() - 1); }
   const Frame& other_frame() { return other_replay_->at(other_step()); }
-  /// Where the two part, if they do.
+  /// Where the two part in more than rounding and what one of them alone computes, if they do and go the same way at all.
   const std::optional<Difference>& parting() const { return parting_; }
+  /// Whether the two are of algorithms that have no step in common.
+  bool unlike() const { return unlike_; }
+  const SharedSupports& shared_supports() const { return shared_supports_; }
+  /// What differs before they part, or without it: "", " but for rounding", " in what both compute".
+  const char* alike_but() const { return alike_but_; }
 
   // --- Editing: every edit solves again ----------------------------------------------------------------------------
   /// The message of what is wrong with the edited scene; empty when it was taken over.
@@ -93,6 +113,7 @@ class Session {
   bool tick_by_the_clock(double seconds);
   void keep_place(const Event& at, std::size_t occurrence);
   void solve_other();
+  void find_parting();
 
   std::string title_;
   Recording recording_;
@@ -119,6 +140,20 @@ class Session {
   SceneMeshes other_meshes_;
   std::string other_title_;
   std::optional<Difference> parting_;
+  bool unlike_ = false;
+  const char* alike_but_ = "";
+  SharedSupports shared_supports_;
+
+  struct Waiting {
+    std::string title;
+    Recording run;
+    std::size_t step = 0;
+    std::vector<Finding> findings;
+    std::vector<Past> undo, redo;
+    std::set<std::size_t> breakpoints;
+    std::map<int, std::size_t> bookmarks;
+  };
+  std::optional<Waiting> waiting_;
 };
 
 /// The iteration an event belongs to, beginnings to the 0th; -1 for none.

@@ -26,12 +26,13 @@ std::string short_vector(const AnyVector& v, int digits) {
   return out + ")";
 }
 
-std::string letters(const std::vector<int>& vertices, const std::vector<int>& order) {
+std::string letters(const std::vector<int>& vertices, const std::vector<int>& order, bool newest_first) {
   std::string out;
   for (const int v : vertices) {
     const auto at = std::find(order.begin(), order.end(), v);
-    out += at == order.end() ? "?" : std::string(1, static_cast<char>('A' + (at - order.begin())));
+    out += at == order.end() ? '?' : vertex_letter(newest_first ? at - order.begin() : order.end() - at - 1);
   }
+  if (!newest_first) std::sort(out.begin(), out.end());
   return out;
 }
 
@@ -48,7 +49,7 @@ std::string body_name(const Recording& recording, int body) {
   return name.empty() ? "body " + std::to_string(body) : name;
 }
 
-std::string facet_name(const Recording& recording) { return recording.scene.scene.dimension == 2 ? "edge" : "face"; }
+std::string facet_name(const Recording& recording) { return gjkdbg::facet_name(recording.scene.scene.dimension); }
 
 bool of_two_boxes(const Recording& recording, std::size_t step) {
   const int dimension = recording.scene.scene.dimension;
@@ -61,12 +62,13 @@ namespace {
 
 struct Summarise {
   const Recording& recording;
+  bool newest_first;
 
   std::string operator()(const recorded::GjkBegan& e) const { return "d = " + short_vector(e.direction); }
   std::string operator()(const recorded::SupportQueried& e) const { return "w = " + short_vector(e.w); }
   std::string operator()(const recorded::VertexKept& e) const { return "w = " + short_vector(e.w); }
   std::string operator()(const recorded::SimplexReduced& e) const {
-    return letters(e.before, e.before) + " -> " + letters(e.region, e.before) + (e.closest.size() > 0 ? "  |v| = " + short_number(e.closest.norm()) : "");
+    return letters(e.before, e.before, newest_first) + " -> " + letters(e.region, e.before, newest_first) + (e.closest.size() > 0 ? "  |v| = " + short_number(e.closest.norm()) : "");
   }
   /// A solver's is put down from its answer.
   std::string operator()(const recorded::GjkEnded& e) const {
@@ -100,7 +102,7 @@ struct Summarise {
   std::string operator()(const recorded::ProjectionsBegan& e) const { return "x = " + short_vector(e.point); }
   std::string operator()(const recorded::PointPredicted& e) const { return "x = " + short_vector(e.point); }
   std::string operator()(const recorded::ProjectionsEnded& e) const { return std::string(word_of(e.status)); }
-  std::string operator()(const recorded::CastBegan& e) const { return std::to_string(e.pairs.size()) + " pairs"; }
+  std::string operator()(const recorded::CastBegan& e) const { return std::to_string(e.pairs.size()) + (e.pairs.size() == 1 ? " pair" : " pairs"); }
   std::string operator()(const recorded::CastAdvanced& e) const { return (recording.scene.scene.bodies.size() > 2 ? pair(e.pair) + "  " : "") + "t = " + short_number(e.time) + "  d = " + short_number(e.distance); }
   std::string operator()(const recorded::CastEnded& e) const { return std::string(word_of(e.status)) + "  t = " + short_number(e.time); }
   std::string operator()(const recorded::State& e) const { return "t = " + short_number(e.time); }
@@ -118,6 +120,6 @@ struct Summarise {
 
 }  // namespace
 
-std::string summary(const Recording& recording, std::size_t step) { return std::visit(Summarise{recording}, recording.events[step]); }
+std::string summary(const Recording& recording, std::size_t step, bool newest_first) { return std::visit(Summarise{recording, newest_first}, recording.events[step]); }
 
 }  // namespace gjkdbg

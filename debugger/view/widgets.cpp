@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "debugger/view/app.h"
 #include "debugger/view/explain.h"
@@ -208,17 +209,51 @@ std::string method_text(const Recording& recording) {
   return text + " \xC2\xB7 " + std::string(word_of(s.scalar));
 }
 
+namespace {
+
+/// A field of an event, as the panels call it.
+std::string in_words_of_the_panel(std::string field) {
+  for (const auto& [name, words] : {std::pair("barycentric", "the weights"), {"closest", "v"}, {"region", "the part that is kept"}, {"vertex", "the vertex"}, {"w", "w"}})
+    if (field == name) return words;
+  std::replace(field.begin(), field.end(), '_', ' ');
+  return field;
+}
+
+std::string in_words(const SharedSupports& shared) {
+  if (shared.first == 0) return "";
+  if (shared.all) return "; as far as both go, all supports are the same";
+  return "; the first " + (shared.first == 1 ? std::string("support is") : std::to_string(shared.first) + " supports are") + " the same";
+}
+
+/// What differs where two runs part: kinds, or fields, with how much their numbers differ by.
+std::string what_parts(const Session& session) {
+  const Difference& p = *session.parting();
+  const auto kind = [&](const Recording& run) { return p.event < run.events.size() ? "\"" + std::string(short_kind(run.events[p.event])) + "\"" : std::string("nothing more"); };
+  if (p.fields.empty()) return ": " + kind(session.recording()) + " here, " + kind(session.other()) + " beside" + in_words(session.shared_supports());
+  std::string text;
+  for (std::size_t i = 0; i < p.fields.size(); ++i) {
+    text += (i == 0 ? ": " : ", ") + in_words_of_the_panel(p.fields[i]);
+    if (!std::isnan(p.by[i])) text += " by " + short_number(p.by[i]);
+  }
+  return text;
+}
+
+}  // namespace
+
 std::string parting_text(const Session& session) {
-  const std::string but = session.recording().settings.scalar == session.other().settings.scalar ? "" : " but for rounding";
+  if (session.unlike()) return "two algorithms: no step of one is the other's, and only their answers compare";
+  const std::string but = session.alike_but();
   const auto& p = session.parting();
   if (!p) return "the same" + but + ", step by step";
-  std::string fields;
-  for (std::size_t i = 0; i < p->fields.size(); ++i) {
-    fields += (i == 0 ? ": " : ", ") + p->fields[i];
-    if (!std::isnan(p->by[i])) fields += " by " + short_number(p->by[i]);  // 1e-16 is rounding, 0.1 another way
-  }
-  if (p->event >= std::max(session.count(), session.other().events.size())) return "the same" + but + ", step by step; the results differ" + fields;
-  return (session.step() < p->event ? "the same so far" + but + "; " : "") + "they part at step " + std::to_string(p->event) + fields;
+  if (p->event >= std::max(session.count(), session.other().events.size())) return "the same" + but + ", step by step; the results differ" + what_parts(session);
+  return (session.step() < p->event ? "the same so far" + but + "; " : "") + "they part at step " + std::to_string(p->event) + what_parts(session);
+}
+
+std::string ending_text(const Session& session) {
+  const std::size_t here = session.count() - 1, beside = session.other().events.size() - 1;
+  if (here == beside) return {};
+  if (here < beside) return "it goes on for " + std::to_string(beside - here) + (beside - here == 1 ? " step" : " steps") + " longer than this run, to step " + std::to_string(beside);
+  return session.step() > beside ? "it has ended, at step " + std::to_string(beside) : "it ends at step " + std::to_string(beside) + ", before this run";
 }
 
 bool answers_agree(const Result& a, const Result& b) {
