@@ -43,7 +43,7 @@ struct Frame {
 
   /// GJK: the current simplex, newest first: after a support query it holds the new vertex too. EPA starts from it and leaves it.
   std::vector<int> simplex;
-  /// The vertices in the order of their letters P, Q, R, S: the simplex, and at the step of a cut what it was before.
+  /// The vertices in the order of their letters A, B, C, D: the simplex, and at the step of a cut what it was before.
   std::vector<int> lettered;
   std::vector<int> seeds;           ///< EPA: vertices asked for to complete the start, until the polytope stands
   std::vector<int> dropped;         ///< vertices the event at `step` dropped

@@ -118,7 +118,7 @@ class Words : public Window {
 TEST_F(Words, SayWhyASimplexIsKeptAndWhatItMeans) {
   app.open_gallery("boolean-hit-2d");
   const std::string hit = at(5).text;
-  EXPECT_NE(hit.find("The origin lies in the triangle PQR: the bodies overlap."), std::string::npos) << hit;
+  EXPECT_NE(hit.find("The origin lies in the triangle ABC: the bodies overlap."), std::string::npos) << hit;
   EXPECT_EQ(hit.find("next direction"), std::string::npos) << hit;
   app.open_gallery("2d-squares-apart");
   EXPECT_NE(at(4).text.find("the foot of the perpendicular from O lies within it"), std::string::npos);
@@ -135,7 +135,7 @@ TEST_F(Words, NameTheNearestPointAtTheEnd) {
   app.open_gallery("2d-squares-apart");
   EXPECT_TRUE(names(last()).contains("v"));
   app.open_gallery("2d-corner-to-corner");
-  EXPECT_TRUE(names(last()).contains("v = P = w")) << "one dot, one label";
+  EXPECT_TRUE(names(last()).contains("v = A = w")) << "one dot, one label";
   EXPECT_FALSE(names(last()).contains("w"));
 }
 
@@ -273,7 +273,7 @@ TEST_F(Words, AreOfThePairThatIsLookedAt) {
 TEST_F(Words, TellTheCoresFromTheBodies) {
   app.open_gallery("sphere-in-box");
   session.go_to(session.count() - 1);
-  EXPECT_NE(explain(session.recording(), session.frame()).text.find("0.6 of the cores, with the radii, 0.5 together, is the depth. Moving B by 1.1"), std::string::npos);
+  EXPECT_NE(explain(session.recording(), session.frame()).text.find("0.6 of the cores, with the radii, 0.5 together, is the depth. Moving body B by 1.1"), std::string::npos);
   app.open_gallery("margin-boxes");
   session.go_to(session.count() - 1);
   const std::string text = explain(session.recording(), session.frame()).text;

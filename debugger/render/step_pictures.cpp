@@ -32,7 +32,7 @@ ViewPoint row_offset(int body, int dimension, const Projection& projection) {
 
 std::string facet_name(int dimension) { return dimension == 1 ? "endpoint" : dimension == 2 ? "edge" : "face"; }
 
-char vertex_letter(std::ptrdiff_t place) { return static_cast<char>('P' + place); }
+char vertex_letter(std::ptrdiff_t place) { return static_cast<char>('A' + place); }
 
 std::string simplex_letter(const Frame& frame, int vertex, bool newest_first) {
   const auto found = std::find(frame.lettered.begin(), frame.lettered.end(), vertex);

@@ -18,7 +18,7 @@ struct ViewSettings {
   bool grid = true;
   bool regions = true;        ///< the Voronoi region of the part that is kept
   bool bounds = true;         ///< rings about the origin, as far out as the bounds
-  bool newest_first = true;   ///< P is the newest vertex of the simplex; else the oldest
+  bool newest_first = true;   ///< A is the newest vertex of the simplex; else the oldest
   bool body_letters = false;  ///< drawn in the world; the window has handles with them instead
   std::optional<int> selected;  ///< a vertex, marked in both views
   std::optional<int> pointed;   ///< a vertex under the pointer, lit in both views
@@ -55,9 +55,9 @@ Camera fit_difference(const SceneMeshes& meshes, const Recording& recording);
 
 /// What a polytope's border consists of: faces, in the plane edges, on a line endpoints.
 std::string facet_name(int dimension);
-/// The letter of the vertex at a place of the simplex: P, Q, R, S. A and B are the bodies.
+/// The letter of the vertex at a place of the simplex: A, B, C, D, as the literature has them. Bodies have their letters on discs, and in sentences are called bodies.
 char vertex_letter(std::ptrdiff_t place);
-/// The letter a vertex goes by at a step: P for the newest of the simplex (or the oldest), then Q, R, S; "" when it is not in it. At the
+/// The letter a vertex goes by at a step: A for the newest of the simplex (or the oldest), then B, C, D; "" when it is not in it. At the
 /// step of a cut the letters are those before it, which the step's sentence uses.
 std::string simplex_letter(const Frame& frame, int vertex, bool newest_first = true);
 

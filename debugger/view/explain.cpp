@@ -83,7 +83,7 @@ struct Explain : ExplainMotion {
         return "No support lies farther along -v than v itself: the bounds " + short_number(e.lower_bound) + " and " + short_number(e.upper_bound) + " have met. The signed distance is known" + less_the_radii(e) + ".";
       case GjkStatus::separated: return "The plane of the last support has all of " + difference() + " on its far side, so the bodies are apart. Only yes or no was asked, and this is the proof.";
       case GjkStatus::within_radius: return "The cores are apart, but nearer than the radii around them: the bodies overlap, and no more was asked.";
-      case GjkStatus::enclosed: return "The simplex encloses the origin: some point of " + a() + " is also a point of " + b() + ". The " + bodies() + " overlap.";
+      case GjkStatus::enclosed: return "The simplex encloses the origin: some point of body " + a() + " is also a point of body " + b() + ". The " + bodies() + " overlap.";
       case GjkStatus::touching: return "The origin lies on the simplex, within rounding: on a vertex, an edge or a face. Whether this is touch or overlap, EPA will tell.";
       case GjkStatus::stalled: return "|v| no longer falls: the precision is used up, or the method's own rule stops it. The bounds say how much is known.";
       case GjkStatus::iteration_limit: return "The iteration limit is reached before the bounds met. This is no answer; the bounds say how much is known.";
@@ -99,8 +99,8 @@ struct Explain : ExplainMotion {
       case EpaStatus::converged:
         if (ends_at_an_earlier_face(e))
           return "Along the normal of " + face + " " + std::to_string(e.face) + ", which was asked along before, " + difference() + " reaches no farther than the polytope's nearest " + face + " is now: the bounds have met, and that" + with_the_radii(e) +
-                 " is the depth. Moving " + b() + " by " + short_number(e.depth) + " along " + short_vector(e.normal) + " just separates the bodies.";
-        return "No vertex lies beyond the chosen " + face + ": it is part of the boundary of " + difference() + ", and its distance" + with_the_radii(e) + " is the depth. Moving " + b() + " by " + short_number(e.depth) + " along " +
+                 " is the depth. Moving body " + b() + " by " + short_number(e.depth) + " along " + short_vector(e.normal) + " just separates the bodies.";
+        return "No vertex lies beyond the chosen " + face + ": it is part of the boundary of " + difference() + ", and its distance" + with_the_radii(e) + " is the depth. Moving body " + b() + " by " + short_number(e.depth) + " along " +
                short_vector(e.normal) + " just separates the bodies.";
       case EpaStatus::flat:
         if (rounded()) return "The difference of the cores has no " + measure() + ", and the origin lies in it: the depth, " + short_number(e.depth) + ", is that of the radii alone. The normal is across the flat difference.";
@@ -124,7 +124,7 @@ struct Explain : ExplainMotion {
   std::string first_way(const AnyVector& direction) const {
     const auto& bodies = recording.scene.scene.bodies;
     const bool fallback = bodies.size() == 2 && bodies[0].pose.position == bodies[1].pose.position && direction.tail(direction.size() - 1).isZero(0);
-    return fallback ? ", for the origins of the bodies' poses coincide. Any direction but zero would do." : ", from " + a() + " towards " + b() + ". Any direction but zero would do.";
+    return fallback ? ", for the origins of the bodies' poses coincide. Any direction but zero would do." : ", from body " + a() + " towards body " + b() + ". Any direction but zero would do.";
   }
 
   Explanation operator()(const recorded::GjkBegan& e) const {
@@ -135,7 +135,7 @@ struct Explain : ExplainMotion {
   }
 
   Explanation operator()(const recorded::VertexKept& e) const {
-    return {"A vertex kept", "w = " + short_vector(e.w) + " was in the simplex the last run ended with. Its points of " + a() + " and " + b() + " have moved with them: it still lies in " + difference() + ", so the search goes on from there."};
+    return {"A vertex kept", "w = " + short_vector(e.w) + " was in the simplex the last run ended with. Its points of bodies " + a() + " and " + b() + " have moved with them: it still lies in " + difference() + ", so the search goes on from there."};
   }
 
   Explanation operator()(const recorded::SupportQueried& e) const {
@@ -292,7 +292,7 @@ struct Explain : ExplainMotion {
       case MprStatus::separated: return {title, "The plane of the last support has all of " + difference() + " on its far side: the bodies are apart, by at least " + short_number(-e.depth) + ". How far, MPR does not know."};
       case MprStatus::overlapping: return {title, "The origin lies inside a portal: the bodies overlap, and no more was asked."};
       case MprStatus::converged:
-        return {title, "The portal is part of the boundary. Moving " + b() + " by " + short_number(e.depth) + " along its normal " + short_vector(e.normal) + " separates the bodies; a shorter way may exist, for MPR looks in one direction only."};
+        return {title, "The portal is part of the boundary. Moving body " + b() + " by " + short_number(e.depth) + " along its normal " + short_vector(e.normal) + " separates the bodies; a shorter way may exist, for MPR looks in one direction only."};
       case MprStatus::flat: return {title, difference() + " has no volume, so no point of it is inside: MPR has nowhere to look from, and GJK and EPA answer instead."};
       case MprStatus::stalled: return {title, "The portal no longer moves in this precision. The bounds say how much is known."};
       case MprStatus::iteration_limit: return {title, "The limit is reached. The bounds say how much is known."};

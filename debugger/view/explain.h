@@ -16,7 +16,7 @@ struct Explanation {
 /// `newest_first`: as the letters count, see simplex_letter.
 Explanation explain(const Recording& recording, const Frame& frame, bool newest_first = true);
 
-/// One line for a list: "w = (…)", "PQ → P".
+/// One line for a list: "w = (…)", "AB → A".
 std::string summary(const Recording& recording, std::size_t step, bool newest_first = true);
 
 struct PseudoCode {
@@ -36,7 +36,7 @@ bool of_two_boxes(const Recording& recording, std::size_t step);
 std::string body_name(const Recording& recording, int body);
 /// What a polytope's border consists of: "face"; in the plane "edge", on a line "endpoint".
 std::string facet_name(const Recording& recording);
-/// Vertices as P, Q, R, S: by their places in `order`, from its end where not `newest_first`.
+/// Vertices as A, B, C, D: by their places in `order`, from its end where not `newest_first`.
 std::string letters(const std::vector<int>& vertices, const std::vector<int>& order, bool newest_first = true);
 
 /// Short decimal: six significant digits.

@@ -14,7 +14,7 @@ std::string in_words(std::string_view name);
 struct ExplainMotion {
   const Recording& recording;
   const Frame& frame;
-  bool newest_first = true;  ///< P is the newest vertex of a simplex; else the oldest
+  bool newest_first = true;  ///< A is the newest vertex of a simplex; else the oldest
 
   char letter_at(std::size_t place, std::size_t of) const { return vertex_letter(static_cast<std::ptrdiff_t>(newest_first ? place : of - 1 - place)); }
 

@@ -16,7 +16,7 @@ std::string in_difference(const std::string& name, const Frame& frame) {
   }
   if (name == "d") return "d, the direction asked along: which point of " + difference + " lies farthest that way?";
   if (name == "w") return "w, the support: of all points of " + difference + " one farthest along d. Nothing of " + difference + " lies beyond the plane through it, across d.";
-  if (name == "depth" || name == "depth of the cores") return "The way out: moved by as much along it, " + b + " just leaves " + a + ". None that was found is shorter.";
+  if (name == "depth" || name == "depth of the cores") return "The way out: moved by as much along it, body " + b + " just leaves body " + a + ". None that was found is shorter.";
   if (name.starts_with("face ") || name.starts_with("edge ") || name.starts_with("endpoint ")) return "The one nearest to O. How far " + difference + " reaches beyond it is asked along its normal.";
   if (name.starts_with("nearest: ")) return "The one nearest to O, which should have been chosen: the distance of another is no lower bound of the depth.";
   if (name.starts_with("region ")) return "Whatever lies here has its nearest point of the simplex on the vertices named. O lies here, so the others are not needed.";

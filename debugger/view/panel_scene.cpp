@@ -331,7 +331,7 @@ void scene_panel(App& app) {
   ImGui::Checkbox("bounds as rings", &p.bounds);
   ImGui::Checkbox("dropped and removed", &p.dropped);
   ImGui::Checkbox("labels", &p.labels);
-  ImGui::Checkbox("P is the newest vertex", &p.newest_first);
+  ImGui::Checkbox("A is the newest vertex", &p.newest_first);
   ImGui::Checkbox("grid", &p.grid);
   ImGui::Checkbox("cameras linked", &p.linked_cameras);
 }
