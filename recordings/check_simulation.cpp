@@ -163,14 +163,19 @@ struct SimulationCheck {
     if (before) result(*before, states, touched);
   }
 
-  /// Every body is turned by some quaternion of length 1, and what does not move stays as the scene has it.
+  /// Every body is turned by some quaternion of length 1, and what is static stays as the scene has it.
   void oriented(const recorded::State& state, const recorded::State* before) const {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
       const std::vector<double>& q = state.bodies[i].orientation;
       const std::string who = "Body " + std::to_string(i) + " at time " + text_of(state.time) + " ";
       double squared = 0;
       for (const double x : q) squared += x * x;
-      if (q.size() != 4 || std::abs(squared - 1) > 1e-6) return c.find("wrong-state", who + "has no orientation: that is a quaternion of length 1.");
+      if (q.size() != 4 || !(std::abs(squared - 1) <= 1e-6)) return c.find("wrong-state", who + "has no orientation: that is a quaternion of length 1.");
+      const std::vector<double>& spin = state.bodies[i].angular_velocity;
+      const std::size_t axes = scene.dimension == 3 ? 3 : scene.dimension == 2 ? 1 : 0;
+      if (spin.size() != axes) return c.find("wrong-state", who + "has an angular velocity of " + std::to_string(spin.size()) + " numbers; in " + std::to_string(scene.dimension) + "D it has " + std::to_string(axes) + ".");
+      const bool turns = std::any_of(spin.begin(), spin.end(), [](double x) { return x != 0; });
+      if (of(i).is_static && (turns || !state.bodies[i].velocity.isZero(0))) return c.find("wrong-state", who + "moves, though it is static.");
       const M3 own = moving(state, i).rotation;
       const AnyMatrix first = own.topLeftCorner(scene.dimension, scene.dimension);
       const bool fixed = !before || of(i).is_static;
@@ -195,8 +200,8 @@ struct SimulationCheck {
       energy += moves + turns + falls, scale += moves + std::abs(turns) + std::abs(falls);
       momentum += of(i).mass * m.velocity, speed += of(i).mass * m.velocity.norm();
     }
-    if (std::abs(state.energy - energy) > 1e-6 * scale + 1e-12) c.find("wrong-state", "The energy is given as " + text_of(state.energy) + "; places and velocities make it " + text_of(energy) + ".");
-    if ((in_space(state.momentum) - momentum).norm() > 1e-9 * speed + 1e-12) c.find("wrong-state", "The momentum is given as " + text_of(state.momentum) + "; the velocities make it " + text_of(AnyVector(momentum)) + ".");
+    if (!std::isfinite(scale) || !(std::abs(state.energy - energy) <= 1e-6 * scale + 1e-12)) c.find("wrong-state", "The energy is given as " + text_of(state.energy) + "; places and velocities make it " + text_of(energy) + ".");
+    if (!((in_space(state.momentum) - momentum).stableNorm() <= 1e-9 * speed + 1e-12)) c.find("wrong-state", "The momentum is given as " + text_of(state.momentum) + "; the velocities make it " + text_of(AnyVector(momentum)) + ".");
   }
 
   /// A contact is where both bodies are, at the time of the step, and its impulse pushes along its normal: apart.
@@ -228,6 +233,8 @@ struct SimulationCheck {
       const auto* e = std::get_if<recorded::ImpulseApplied>(&c.recording.events[step]);
       if (!e) continue;
       judge(*e, "An impulse");
+      const bool found = std::any_of(contacts.begin(), contacts.end(), [&](const auto* contact) { return contact->pair == e->pair && contact->point == e->point; });
+      if (!found && !foreign(c.recording)) c.find("wrong-contact", "An impulse is at " + text_of(e->point) + ", where bodies " + std::to_string(e->pair[0]) + " and " + std::to_string(e->pair[1]) + " have no contact in this step.");
       if (e->impulse.dot(e->normal) < -1e-9 * e->impulse.norm()) c.find("flipped-normal", "The impulse " + text_of(e->impulse) + " on body " + std::to_string(e->pair[1]) + " leads against its normal " + text_of(e->normal) + ": impulses push the second body along the normal, away from the first.");
       for (const auto* contact : contacts)
         if (contact->pair == e->pair && contact->point == e->point && (contact->normal - e->normal).norm() > 1e-9) c.find("wrong-normal", "The impulse at " + text_of(e->point) + " has the normal " + text_of(e->normal) + ", its contact " + text_of(contact->normal) + ".");
@@ -300,7 +307,7 @@ struct SimulationCheck {
         }
       const double slack = 1e-9 * speed + 1e-14;
       const V3 gained = to.velocity - from.velocity;
-      if ((gained - change).norm() > slack)
+      if (!((gained - change).norm() <= slack) || !std::isfinite(slack))
         c.find("wrong-state", "Body " + std::to_string(i) + " changes its velocity by " + text_of(AnyVector(gained)) + " in the step to time " + text_of(now.time) + "; gravity and impulses make that " + text_of(AnyVector(change)) + ".");
       const V3 used = falls_last && !fixed ? V3(to.velocity - gravity * h) : to.velocity;
       double off = (to.place - from.place - h * used).norm();
@@ -371,6 +378,7 @@ struct SimulationCheck {
 void check_simulation(CheckContext& c) {
   SimulationCheck judge(c);
   judge.walk();
+  check_limits(c);
   judge.states();
   judge.counts();
 }
