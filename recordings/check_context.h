@@ -182,7 +182,7 @@ class Repetition {
 /// GJK's part of a run: directions, simplices, progress, and the claim it ends with.
 class GjkCheck {
  public:
-  explicit GjkCheck(CheckContext& context) : c_(context) {}
+  explicit GjkCheck(CheckContext& context) : c_(context), portals_(context.inferred && context.recording.settings.name == MethodName::mpr) {}
   void operator()(const recorded::GjkBegan& e);
   void operator()(const recorded::VertexKept& e) { pending_.insert(pending_.begin(), e.vertex); }
   void operator()(const recorded::SupportQueried& e);
@@ -210,6 +210,7 @@ class GjkCheck {
   bool heuristic_region(const std::vector<int>& before, const std::vector<int>& region, const AnyVector& v);
 
   CheckContext& c_;
+  const bool portals_;  ///< whether a solver said to be MPR tells its portals as simplices
   std::vector<int> simplex_, pending_;  ///< kept, and queried since
   bool reported_ = false;               ///< whether any simplex was
   AnyVector first_direction_, last_direction_;

@@ -17,6 +17,7 @@ from solver_causes import CAUSES, NEGATED, SINGLE
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 KIT = ROOT / "debugger/solver/kits/gjk.py"
 MURATORI = ROOT / "tests/muratori_solver.py"
+MPR = ROOT / "tests/mpr_solver.py"
 PROGRAM = os.path.abspath(sys.argv.pop(1))
 SOURCE = KIT.read_text()
 
@@ -39,7 +40,7 @@ def moves(scene):
 
 class Solver(unittest.TestCase):
     def run_kit(self, scene, command, *more):
-        result = subprocess.run([PROGRAM, "run", str(scene), "--name", "gjk", "--exec", command, "--json", *more], capture_output=True, text=True)
+        result = subprocess.run([PROGRAM, "run", str(scene), *(() if "--method" in more else ("--name", "gjk")), "--exec", command, "--json", *more], capture_output=True, text=True)
         self.assertIn(result.returncode, (0, 1), result.stderr)
         findings = json.loads(result.stdout)["findings"]
         self.assertEqual(result.returncode, 1 if findings else 0)
@@ -172,6 +173,26 @@ class Solver(unittest.TestCase):
 
     def test_muratoris_form_is_clean_on_the_gallery(self):
         self.clean_on_the_gallery(f"/usr/bin/python3 {ROOT / 'tests/muratori_solver.py'}", space_only=True)
+
+    def test_portals_are_judged_as_portals(self):
+        """Said to be MPR's, simplices lead outwards, and a depth is a way out. What it claims is judged all the same."""
+        scenes = ("mpr-box-box", "box-box-deep", "obb-shallow", "box-box-apart", "pair-sphere-box", "pair-cone-ellipsoid", "boolean-hit-3d", "boolean-miss-3d", "hull-tetrahedra", "cylinder-box-deep")
+        command, ways = f"/usr/bin/python3 {MPR}", []
+        for scene in scenes:
+            with self.subTest(scene):
+                self.assertEqual(self.run_kit(scene, command, "--method", "mpr"), [])
+            ways += [finding["code"] for finding in self.run_kit(scene, command)]
+        self.assertTrue(ways, "by GJK's rules there is something to say")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "wrong.py")
+            for old, new, scene, code in (("if proves and dot(self.w, d) < 0", "if proves and dot(self.w, d) > 0", "box-box-deep", "unjustified-separation"), ("raise Apart", "pass", "boolean-miss-3d", "wrong-answer"),
+                                          ('"signed_distance": -way_out[1]', '"signed_distance": -1.2 * way_out[1]', "box-box-deep", "wrong-depth"),
+                                          ('"signed_distance": -way_out[1]', '"signed_distance": -0.5 * way_out[1]', "box-box-deep", "wrong-depth"),
+                                          ("x.number for x in portal", "x.number + 40 for x in portal", "box-box-deep", "unknown-vertex")):
+                self.assertIn(old, MPR.read_text())
+                path.write_text(MPR.read_text().replace(old, new, 1))
+                with self.subTest(new):
+                    self.expect(self.run_kit(scene, f"/usr/bin/python3 {path}", "--method", "mpr"), code, new)
 
     def test_cpp_kit_is_clean_on_the_gallery(self):
         with tempfile.TemporaryDirectory() as folder:
