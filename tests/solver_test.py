@@ -46,6 +46,13 @@ class Solver(unittest.TestCase):
         self.assertEqual(result.returncode, 1 if findings else 0)
         return findings
 
+    def recorded(self, scene, lines):
+        """The supports that gjkdbg gives to these messages."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "recording.json")
+            subprocess.run([PROGRAM, "run", scene, "--exec", f"cat >/dev/null & printf '%s\\n' {lines}", "-o", str(path)], capture_output=True)
+            return [e for e in json.loads(path.read_text())["events"] if e["kind"] == "support_queried"]
+
     def expect(self, findings, code, name):
         codes = [f["code"] for f in findings]
         if code is None:
@@ -277,6 +284,25 @@ class Solver(unittest.TestCase):
             findings = self.run_kit(box, "cat >/dev/null & printf '%s\\n' " + " ".join(f"'{line}'" for line in lines))
             with self.subTest(lines):
                 self.assertEqual([f["code"] for f in findings][:1], [code] if code else [])
+        # A face before any polytope: its distance is along its normal, its normal leads out, and it has an area.
+        asked = " ".join(f"'{line}'" for line in ('{"type":"support","direction":[1,0]}', '{"type":"support","direction":[0,1]}', '{"type":"support","direction":[-1,0]}'))
+        supports = [[float(x) for x in e["w"]] for e in self.recorded("2d-deep", asked)]
+        p, q = supports[0], supports[1]
+        across = [q[1] - p[1], p[0] - q[0]]
+        n = [x / (across[0] ** 2 + across[1] ** 2) ** 0.5 for x in across]
+        if n[0] * p[0] + n[1] * p[1] < 0:
+            n = [-x for x in n]
+        d = n[0] * p[0] + n[1] * p[1]
+        for vertices, normal, distance, code in (([0, 1], n, d, None), ([0, 1], n, -d, "wrong-face"), ([0, 1], [-x for x in n], d, "wrong-face"), ([0, 1], [-x for x in n], -d, "wrong-face"), ([0, 0], n, d, "zero-area-face"),
+                                                 ([0, 1], [0, 0], d, "wrong-face"), ([0, 1], None, d, None)):
+            message = json.dumps({"type": "face", "vertices": vertices, "normal": normal, "distance": distance})
+            findings = self.run_kit("2d-deep", f"cat >/dev/null & printf '%s\\n' {asked} '{message}' '{result}'")
+            with self.subTest(message):
+                self.assertEqual([f["code"] for f in findings if f["code"] in ("wrong-face", "zero-area-face")], [code] if code else [])
+        # What a message has in the wrong place is told as that.
+        for message, said in (('{"type":1}', "/type: must be a string, one of support, simplex, polytope, face, result, not number"), ("{}", "/type: is missing; it is one of support"), ("[]", "is no JSON object")):
+            findings = self.run_kit(box, f"cat >/dev/null & printf '%s\\n' '{message}'")
+            self.assertIn(said, findings[0]["message"])
         # A normal that is no number does not hide what the rest says.
         findings = self.run_kit(box, f"cat >/dev/null & printf '%s\\n' '{far}' '" + '{"type":"result","intersecting":false,"normal":[NaN,0,0]}' + "'")
         self.assertEqual([f["code"] for f in findings], ["bad-message", "unjustified-separation", "wrong-answer"])
