@@ -98,7 +98,9 @@ void RecordCheck::judge(const recorded::SatEnded& e) {
   if (e.status != SatStatus::separated && axes_[0] + axes_[1] > 0) contradiction(std::to_string(axes_[0] + axes_[1]) + " faces have not been looked along, and no axis separates.");
   statuses_.emplace(word_of(e.status)), last_status_ = word_of(e.status);
   const bool known = c_.has_supports || radius_between_;
-  if (known && differ(e.distance, plane_) && differ(e.distance, nearest_projected_.value_or(plane_)))
+  // A yes or no ends at the first axis that says enough; of those looked along at once another may be wider.
+  const bool wider = c_.recording.scene.scene.query == Query::intersect && e.status == SatStatus::separated && e.distance > plane_;
+  if (known && !wider && differ(e.distance, plane_) && differ(e.distance, nearest_projected_.value_or(plane_)))
     contradiction("SAT ends with a distance of " + text_of(e.distance) + ", but the steps before give " + text_of(nearest_projected_.value_or(plane_)) + ".");
   lower_ = upper_ = unknowable;
   if (e.status == SatStatus::overlapping && c_.recording.scene.scene.query > Query::distance && c_.recording.settings.penetration != Penetration::none) lower_ = upper_ = e.distance;
@@ -113,10 +115,11 @@ void RecordCheck::judge(const recorded::ClosedFormBegan& e) {
   for (int i = 0; i < c_.dimension; ++i) directions.emplace_back(AnyVector::Unit(c_.dimension, i));
   for (const AnyVector* edge : {&e.edge_a, &e.edge_b})
     if (!edge->isZero(0) && edge->allFinite()) directions.push_back(edge->stableNormalized());
+  const double lost = c_.digits() * (e.corner.norm() + e.edge_a.norm() + e.edge_b.norm());  // of lengths that cancel
   for (const AnyVector& d : directions)
     for (const double sign : {1.0, -1.0}) {
       const double reach = sign * d.dot(e.corner) + std::max(0.0, sign * d.dot(e.edge_a)) + std::max(0.0, -sign * d.dot(e.edge_b)), right = c_.height(sign * d);
-      if (std::abs(reach - right) <= std::max(c_.tolerance, 1e-7 * c_.size)) continue;
+      if (std::abs(reach - right) <= std::max(c_.tolerance, 1e-7 * c_.size) + lost) continue;
       contradiction("The segments' difference reaches " + text_of(reach) + " along " + text_of(AnyVector(sign * d)) + ", but that of the bodies' cores " + text_of(right) + ".");
       return;
     }
@@ -132,10 +135,11 @@ void RecordCheck::judge(const recorded::LinesSolved& e) {
     if (!std::isfinite(parameter) && !edge->isZero(0) && !parallel) return contradiction("The line of the edge " + text_of(*edge) + " is not parallel to the other, but \"" + name + "\", where it is nearest to that, is not said.");
   if (!std::isfinite(e.s) && !std::isfinite(e.t)) return;
   AnyVector between = segments_->corner;
-  if (std::isfinite(e.s)) between += e.s * segments_->edge_a;
-  if (std::isfinite(e.t)) between -= e.t * segments_->edge_b;
+  double lost = segments_->corner.norm();  // of lengths that cancel, however far out on a line that is short
+  if (std::isfinite(e.s)) between += e.s * segments_->edge_a, lost += std::abs(e.s) * segments_->edge_a.norm();
+  if (std::isfinite(e.t)) between -= e.t * segments_->edge_b, lost += std::abs(e.t) * segments_->edge_b.norm();
   for (const auto& [parameter, edge] : {std::pair(e.s, &segments_->edge_a), std::pair(e.t, &segments_->edge_b)})
-    if (std::isfinite(parameter) && std::abs(between.dot(*edge)) > std::max(c_.tolerance, 1e-7 * c_.size) * edge->norm())
+    if (std::isfinite(parameter) && std::abs(between.dot(*edge)) > (std::max(c_.tolerance, 1e-7 * c_.size) + c_.digits() * lost) * edge->norm())
       contradiction("s = " + text_of(e.s) + " and t = " + text_of(e.t) + " are not where the lines are nearest: the way between is " + text_of(between) + ", not across the edge " + text_of(*edge) + ".");
 }
 

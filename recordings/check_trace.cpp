@@ -239,7 +239,8 @@ void TraceCheck::judge(const recorded::ClosedFormEnded& e) {
   if (e.closest.size() > 0 && !e.closest.allFinite()) return no_point(e.closest);
   if (!segments_ || !std::isfinite(e.s) || !std::isfinite(e.t)) return;
   const AnyVector right = segments_->corner + e.s * segments_->edge_a - e.t * segments_->edge_b;
-  if ((right - e.closest).norm() > std::max(c_.tolerance, 1e-7 * c_.size))
+  const double lost = c_.digits() * (segments_->corner.norm() + segments_->edge_a.norm() + segments_->edge_b.norm());  // of lengths that cancel
+  if ((right - e.closest).norm() > std::max(c_.tolerance, 1e-7 * c_.size) + lost)
     c_.find("wrong-closest", "s = " + text_of(e.s) + " and t = " + text_of(e.t) + " give the point " + text_of(right) + ", but the nearest is given as " + text_of(e.closest) + ".");
 }
 
