@@ -36,6 +36,7 @@ struct Contact {
   int first, second;
   Eigen::Vector3d point, normal;
   double depth;
+  double proven;                          ///< of the depth: no more than this they are put apart by
   double restitution, friction;
   double fall_left;                       ///< of the speed of approach: what gravity adds in this step after a bounce
   std::array<Eigen::Vector3d, 2> before;  ///< the bodies' velocities when it was found

@@ -156,7 +156,7 @@ void check_start(const Settings& s, const Scene& scene) {
       const std::string where = "/method/initial_simplex/" + std::to_string(i) + (k == 0 ? "/a" : "/b");
       if (p.size() != scene.dimension) throw Error("wrong-dimension", "needs " + std::to_string(scene.dimension) + " numbers", where);
       if (!p.allFinite()) throw Error("non-finite", "must be finite", where);
-      if (!std::holds_alternative<Mesh>(body.shape.geometry) && !holds(body, p, scene.dimension)) throw Error("out-of-range", "is no point of body \"" + body.name + "\"", where);
+      if (!std::holds_alternative<Mesh>(body.shape.geometry) && !holds(body, p, scene.dimension)) throw Error("out-of-range", "is no point of body " + (body.name.empty() ? std::to_string(k) : "\"" + body.name + "\""), where);
     }
 }
 

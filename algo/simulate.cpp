@@ -202,16 +202,32 @@ class Simulation {
     const Result r = solve_static(two, settings_, trace_, numbers_, &simplex);
     numbers_.next_run();
     supports_ += r.support_calls, iterations_ += r.iterations;
-    if (!r.intersecting || !r.normal || !r.contacts) return;
+    const bool limited = r.status == word_of(GjkStatus::iteration_limit), touch = r.intersecting && r.normal && r.contacts;  // EPA's limit is called the same
+    if (touch) keep_contacts(i, j, r, limited);
+    if (limited && trace_) tell_limit(i, j, touch);
+  }
+
+  /// Where GJK or EPA came to its limit the normal may be another, and the depth less: a bounce along it, or all of the depth put apart, could gain energy. Such contacts
+  /// only hold: along any direction an impulse that ends the approach takes energy away, and no way out is shorter than what is proven of the depth.
+  void keep_contacts(std::size_t i, std::size_t j, const Result& r, bool limited) {
     const Motion &a = *scene_.bodies[i].motion, &b = *scene_.bodies[j].motion;
     const double falls = (movable(bodies_[i]) ? 1 : 0) - (movable(bodies_[j]) ? 1 : 0), fall_left = falls * left_to_fall() * h_ * gravity_.dot(in_space(*r.normal));
+    const double restitution = limited ? 0 : std::max(a.restitution, b.restitution);
     for (const ContactPoint& c : *r.contacts) {
-      Contact contact{static_cast<int>(i), static_cast<int>(j), in_space(AnyVector((c.point_a + c.point_b) / 2)), in_space(*r.normal).normalized(), c.depth,
-                      std::max(a.restitution, b.restitution), std::sqrt(a.friction * b.friction), fall_left, {bodies_[i].v, bodies_[j].v}};
+      const double proven = limited ? std::min(c.depth, std::max(0.0, -r.upper_bound.value_or(0))) : c.depth;
+      Contact contact{static_cast<int>(i), static_cast<int>(j), in_space(AnyVector((c.point_a + c.point_b) / 2)), in_space(*r.normal).normalized(), c.depth, proven,
+                      restitution, std::sqrt(a.friction * b.friction), fall_left, {bodies_[i].v, bodies_[j].v}};
       contacts_.push_back(contact);
       if (trace_)
         (*trace_)(world::ContactFound{time_, {contact.first, contact.second}, in_scene(contact.point), in_scene(contact.normal), contact.depth});
     }
+  }
+
+  void tell_limit(std::size_t i, std::size_t j, bool touch) {
+    const std::string message = "The search between bodies " + std::to_string(i) + " and " + std::to_string(j) + " came to its limit. " +
+                                (touch ? "Which way they touch, and how deep, is not known: they are kept from moving into each other, do not bounce, and are put apart by no more than is proven."
+                                       : "Whether they touch is not known: they are taken for apart.");
+    (*trace_)(world::Warning{"contact-unknown", message});
   }
 
   // --- Impulses ---------------------------------------------------------------------------------------------------------------
@@ -232,7 +248,7 @@ class Simulation {
   void push_apart() {
     for (const Contact& c : contacts_) {
       RigidBody &a = bodies_[static_cast<std::size_t>(c.first)], &b = bodies_[static_cast<std::size_t>(c.second)];
-      const double slop = left_over * std::min(a.reach, b.reach), extra = c.depth - c.leaves - slop;
+      const double slop = left_over * std::min(a.reach, b.reach), extra = c.proven - c.leaves - slop;
       const double weight = a.inverse_mass + b.inverse_mass;
       if (!(extra > 0) || !(weight > 0)) continue;
       const auto points = static_cast<double>(std::count_if(contacts_.begin(), contacts_.end(), [&](const Contact& o) { return o.first == c.first && o.second == c.second; }));

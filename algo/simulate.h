@@ -11,6 +11,7 @@
 //   4. places go on with the new momenta, by the integrator (explicit Euler goes on with the old ones, as it is taught, and before 1)
 //   5. of what still overlaps by more than a thousandth of its size two fifths are moved apart: places alone, never velocities
 //
+// Of a contact whose search came to its limit neither the way nor the depth is known: it holds the bodies, without a bounce, and a warning says so.
 // Modelled no further than asked: no angular state in 1D, none of a static body, no GJK for pairs whose bounding spheres are apart.
 #pragma once
 

@@ -7,6 +7,7 @@
 
 #include "algo/motion.h"
 #include "recordings/check_context.h"
+#include "recordings/check_record.h"
 #include "recordings/region_tests.h"
 #include "recordings/json_writing.h"
 #include "shapes/convex.h"
@@ -254,7 +255,7 @@ struct Walk {
   void operator()(const recorded::ImpulseApplied&) {}
   /// What `run` noted when a solver failed, or named what it had not been given.
   void operator()(const recorded::Warning& e) {
-    for (const char* code : {"timeout", "crash", "bad-message", "support-limit", "no-result", "unknown-vertex", "wrong-face", "open-polytope"})
+    for (const char* code : {"timeout", "crash", "bad-message", "support-limit", "no-result", "unknown-vertex", "wrong-face", "open-polytope", "zero-area-face"})
       if (e.code == code) c.find(code, e.message, e.code == "timeout" && c.recording.result.status != "aborted" ? Finding::Severity::warning : Finding::Severity::error);  // after the result it merely costs
     for (const char* code : {"unknown-field", "direction-not-asked"})
       if (e.code == code) c.find(code, e.message, Finding::Severity::warning);
@@ -277,6 +278,7 @@ std::vector<Finding> check_steps(const Recording& run, std::size_t first) {
     std::visit(walk, event);
     trace.values(event);
     record(event);
+    check_extent(context, event);
   }
   return context.take();
 }
@@ -294,6 +296,7 @@ std::vector<Finding> check(const Recording& recording) {
     trace.values(recording.events[i]);
     record(recording.events[i]);
     steps(recording.events[i]);
+    check_extent(context, recording.events[i]);
     if (std::holds_alternative<recorded::MprEnded>(recording.events[i])) context.of_cores();
   }
   trace.finish();
@@ -302,9 +305,11 @@ std::vector<Finding> check(const Recording& recording) {
     query == Query::cast ? check_cast(context) : check_simulation(context);
     check_runs(context);
     record.motion();
+    check_extent(context, recording.result);
     return context.take();
   }
   if (recording.result.status != "aborted" || !foreign(recording)) check_result(context, walk.best_plane), record.result();
+  check_extent(context, recording.result);
   check_need(context);
   return context.take();
 }

@@ -29,6 +29,7 @@ struct CastWalk : CastStretch {
     for (std::size_t i = 0; i < c.recording.events.size(); ++i) {
       c.step = i;
       const Event& event = c.recording.events[i];
+      if (const auto* e = std::get_if<recorded::CastBegan>(&event)) looks_at(*e);
       if (const auto* e = std::get_if<recorded::CastAdvanced>(&event)) advanced(*e);
       if (const auto* e = std::get_if<recorded::ImpulseApplied>(&event)) respond(*e);
       if (const auto* e = std::get_if<recorded::State>(&event)) as_said(*e);
@@ -42,6 +43,16 @@ struct CastWalk : CastStretch {
   static bool lost(const Body& body) { return !(std::max(body.pose.position.stableNorm(), body.motion->velocity.stableNorm()) <= 1e60); }
 
   // --- On the way -----------------------------------------------------------------------------------------------------
+
+  /// After a response: those that move against each other now. (What a cast begins with is compared with the scene elsewhere.)
+  void looks_at(const recorded::CastBegan& e) const {
+    std::vector<Edge> right;
+    const int n = static_cast<int>(bodies.size());
+    for (int i = 0; i < n; ++i)
+      for (int j = i + 1; j < n; ++j)
+        if (n == 2 || turns(i) || turns(j) || motion(i).velocity != motion(j).velocity) right.push_back({i, j});
+    if (ours && responses > 0 && e.pairs != right) c.find("inconsistent", "The cast goes on with other pairs than those of the bodies that move against each other after the response.", Finding::Severity::warning);
+  }
 
   void advanced(const recorded::CastAdvanced& e) {
     last_advance = &e;

@@ -17,6 +17,10 @@ void CheckContext::find(const char* code, const std::string& message, Finding::S
   findings_.push_back({step, severity, code, message});
 }
 
+bool CheckContext::found_here() const {
+  return std::any_of(findings_.begin(), findings_.end(), [this](const Finding& f) { return f.step == step; });
+}
+
 void CheckContext::suspect(const char* code, const std::string& message) {
   last_suspicion_ = Finding{step, Finding::Severity::error, code, message};
   if (!suspicion_) suspicion_ = last_suspicion_;

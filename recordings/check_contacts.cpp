@@ -37,4 +37,24 @@ void check_contact(CheckContext& c, const Scene& two, const recorded::ContactFou
   if (!surface) c.find("wrong-contact", who + "is deeper: along the normal its point of either body has more of that body before it.");
 }
 
+/// Ours says of every run that came to its limit that the contact is not known, after what contacts it makes of it all the same, and of no other.
+void check_limits(CheckContext& c) {
+  const Settings& s = c.recording.settings;
+  if (foreign(c.recording) || s.penetration == Penetration::mpr || (s.name != MethodName::gjk && s.name != MethodName::gjk_accelerated)) return;  // others hand over to GJK
+  bool limited = false;
+  for (std::size_t i = 0; i < c.recording.events.size(); ++i) {
+    const Event& event = c.recording.events[i];
+    c.step = i;
+    const auto* warning = std::get_if<recorded::Warning>(&event);
+    const auto* gjk = std::get_if<recorded::GjkEnded>(&event);
+    const auto* epa = std::get_if<recorded::EpaEnded>(&event);
+    const bool told = warning && warning->code == "contact-unknown", next = std::holds_alternative<recorded::GjkBegan>(event) || std::holds_alternative<recorded::State>(event) || std::holds_alternative<recorded::ImpulseApplied>(event);
+    if (told && !limited) c.find("inconsistent", "A warning says that a contact is not known, but the run before it did not come to its limit.", Finding::Severity::warning);
+    if (next && limited) c.find("inconsistent", "The run before this step came to its limit, and no warning says that its contact is not known.", Finding::Severity::warning);
+    if (gjk) limited = gjk->status == GjkStatus::iteration_limit;
+    if (epa) limited = epa->status == EpaStatus::iteration_limit;
+    if (told || next) limited = false;
+  }
+}
+
 }  // namespace gjkdbg

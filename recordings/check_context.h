@@ -78,6 +78,8 @@ class CheckContext {
   void explained(const char* code) { explained_.insert(code); }
   /// Whether there is a finding of this code so far.
   bool found(const char* code) const { return seen_.contains(code); }
+  /// Whether there is one of this step.
+  bool found_here() const;
   std::vector<Finding> take();
 
   /// The position of a vertex; a finding, and nothing, when it was never handed out.
@@ -134,6 +136,7 @@ class TraceCheck {
   void along(const AnyVector& normal, double distance);
   void nearest(const AnyVector& closest, double upper);
   void plane(const std::vector<int>& vertices, const AnyVector& normal, double distance);
+  void no_point(const AnyVector& closest);
   void judge(const recorded::ClosedFormBegan& e) { segments_ = e; }
   void judge(const recorded::VertexKept& e);
   void judge(const recorded::SupportQueried& e);
@@ -179,7 +182,7 @@ class Repetition {
 /// GJK's part of a run: directions, simplices, progress, and the claim it ends with.
 class GjkCheck {
  public:
-  explicit GjkCheck(CheckContext& context) : c_(context) {}
+  explicit GjkCheck(CheckContext& context) : c_(context), portals_(context.inferred && context.recording.settings.name == MethodName::mpr) {}
   void operator()(const recorded::GjkBegan& e);
   void operator()(const recorded::VertexKept& e) { pending_.insert(pending_.begin(), e.vertex); }
   void operator()(const recorded::SupportQueried& e);
@@ -207,6 +210,7 @@ class GjkCheck {
   bool heuristic_region(const std::vector<int>& before, const std::vector<int>& region, const AnyVector& v);
 
   CheckContext& c_;
+  const bool portals_;  ///< whether a solver said to be MPR tells its portals as simplices
   std::vector<int> simplex_, pending_;  ///< kept, and queried since
   bool reported_ = false;               ///< whether any simplex was
   AnyVector first_direction_, last_direction_;
@@ -269,102 +273,9 @@ class EpaCheck {
   std::optional<NoGain> no_gain_;  ///< the last time the polytope grew by a vertex no farther out than the face chosen
 };
 
-/// What our own recordings say twice: see check_record.cpp.
-class RecordCheck {
- public:
-  explicit RecordCheck(CheckContext& context);
-  /// After every other check of the event: what those find is nearer to the cause.
-  void operator()(const Event& event);
-  void result();
-  void goes_on(int first) { newest_ = first - 1; }  ///< a run inside a motion has its vertices numbered from there
-  void motion();  ///< the counts of a cast's or a simulation's result
-
- private:
-  static constexpr double unknown = std::numeric_limits<double>::infinity(), unknowable = std::numeric_limits<double>::quiet_NaN();  // from the events
-  void contradiction(const std::string& message);
-  void theirs(const Event& event);
-  template <class E>
-  int right_iteration(const E& e) const;
-  void leads_on(const AnyVector& direction, const AnyVector& from, const char* what, double slack = 1e-12);
-  void next_in_line(const char* what, int number, int& last);
-  bool differ(double said, double right) const;
-  void same_bounds(const char* whose, double lower, double upper);
-  std::string not_as_asked() const;
-  void nearest_to(std::size_t body, const AnyVector& point, const AnyVector& from);
-  void add(const std::vector<recorded::Face>& faces, bool in_line);
-  void judge(const recorded::GjkBegan& e);
-  void judge(const recorded::VertexKept& e);
-  void judge(const recorded::SupportQueried& e);
-  void judge(const recorded::SimplexReduced& e);
-  void judge(const recorded::GjkEnded& e);
-  void judge(const recorded::PolytopeSeeded& e);
-  void judge(const recorded::FaceChosen& e);
-  void judge(const recorded::PolytopeGrown& e);
-  void judge(const recorded::EpaEnded& e);
-  void judge(const recorded::MprBegan& e);
-  void judge(const recorded::PortalFound& e);
-  void judge(const recorded::MprEnded& e);
-  void judge(const recorded::SatBegan& e);
-  void judge(const recorded::AxisTested& e);
-  void judge(const recorded::SatEnded& e);
-  void judge(const recorded::ClosedFormBegan& e);
-  void judge(const recorded::LinesSolved& e);
-  void judge(const recorded::ClosedFormEnded& e);
-  void judge(const recorded::ProjectionsBegan& e);
-  void judge(const recorded::PointPredicted& e);
-  void judge(const recorded::PointsProjected& e);
-  void judge(const recorded::ProjectionsEnded& e);
-  void judge(const recorded::CastBegan& e);
-  void judge(const recorded::CastAdvanced& e);
-  void judge(const recorded::CastEnded& e) { cast_iterations_ = e.iteration; }
-  void judge(const recorded::State&) { responded_ = true; }
-  template <class E>
-  void judge(const E&) {}
-
-  CheckContext& c_;
-  const bool ours_;
-  AnyVector first_;  ///< the direction GJK says it begins with, until it has
-  int iterations_ = 0, supports_ = 0, newest_ = -1, last_face_ = -1;
-  std::set<std::string> statuses_;            ///< of the phases that ended
-  std::string_view last_status_;              ///< of these
-  std::optional<double> nearest_projected_;   ///< how far apart the bodies are by the points projected last
-  int iteration_ = 0;                         ///< of the phase, so far
-  bool counted_ = false;                      ///< whether it was seen to begin
-  std::vector<int> simplex_, asked_;          ///< GJK's: kept, and asked for since; newest first
-  AnyVector towards_, chosen_normal_, from_interior_;  ///< where the next support leads: from GJK's nearest point, across EPA's face, from MPR's inner point
-  AnyVector axis_;                            ///< where the last one led
-  AnyVector interior_, newest_w_;             ///< MPR's: towards its inner point, zero where that is next to the origin; the last vertex, empty before any
-  enum class Portal { none, found, found_last } portal_ = Portal::none;  ///< whether there is one, and nothing after it
-  double plane_ = 0;                          ///< the farthest its supports have proven the cores apart
-  double lower_ = 0, upper_ = 0;              ///< what the phase knows of the bodies' signed distance, infinite where nothing, NaN where the events do not say
-  std::map<int, recorded::Face> faces_;       ///< EPA's, those removed too
-  std::set<int> standing_, chosen_;           ///< of these
-  double height_ = 0;                         ///< the least along the normals chosen
-  std::array<int, 3> axes_{};                 ///< SAT's, by source: how many may still come
-  std::optional<recorded::ClosedFormBegan> segments_;
-  std::vector<Edge> pairs_;                   ///< of the bodies that a cast looks at
-  int cast_iteration_ = 0, ray_iteration_ = 0;  ///< so far
-  double cast_time_ = 0;
-  bool responded_ = false;                    ///< whether bodies move otherwise than the scene says
-  std::optional<double> radius_between_;      ///< of motions and meshes: between the vertices' difference and that of the bodies, where every pair has the same
-  double radius() const { return radius_between_.value_or(c_.radius); }
-  std::optional<int> cast_iterations_;
-  AnyVector projected_from_;                  ///< the point last said to be projected; empty before any
-};
-
-/// Whether our own events follow one another as our steps do: see check_order.cpp.
-class OrderCheck {
- public:
-  explicit OrderCheck(CheckContext& context);
-  /// After every other check of the event.
-  void operator()(const Event& event);
-
- private:
-  CheckContext& c_;
-  std::string before_, earlier_;
-  bool portal_ = false, casting_ = false;  ///< whether MPR has a portal; whether a cast looks at pairs
-};
-
+/// A number so large that products of four are none, in an event or in the result: see check_extent.cpp. After every other check of it.
+void check_extent(CheckContext& context, const Event& event);
+void check_extent(CheckContext& context, const Result& result);
 /// The answer against our own.
 void check_result(CheckContext& context, double best_plane);
 /// The steps of one run inside a motion, as of a recording of its two bodies at rest: events before `first` stand for nothing.
@@ -376,6 +287,8 @@ struct RunEnds {
 RunEnds ends_before(const CheckContext& context, std::size_t contact);
 /// A contact of a simulation, of two bodies where they are then.
 void check_contact(CheckContext& context, const Scene& two, const recorded::ContactFound& contact);
+/// Runs of a simulation that came to their limits.
+void check_limits(CheckContext& context);
 /// The runs of GJK and EPA inside a motion, each by itself.
 void check_runs(CheckContext& context);
 /// The steps of a cast.

@@ -135,8 +135,8 @@ void GjkCheck::operator()(const recorded::SupportQueried& e) {
     pending_.insert(pending_.begin(), e.vertex);
     return;
   }
-  // Momentum leads the directions of accelerated GJK astray on purpose, and a support that brings nothing ends the momentum, not the search.
-  if (c_.recording.settings.name != MethodName::gjk_accelerated) {
+  // Momentum leads the directions of accelerated GJK astray on purpose, and a support that brings nothing ends the momentum, not the search. A portal leads outwards.
+  if (c_.recording.settings.name != MethodName::gjk_accelerated && !portals_) {
     if (reported_ && pending_.empty()) check_towards_origin(e.direction);
     check_progress(e);
   } else {
@@ -289,7 +289,7 @@ bool GjkCheck::begins_again(const recorded::SimplexReduced& e) {
 
 void GjkCheck::operator()(const recorded::SimplexReduced& e) {
   for (const auto* list : {&e.before, &e.region}) points(*list);
-  const bool again = begins_again(e);
+  const bool again = !portals_ && begins_again(e);
   std::vector<int> sorted = e.region;
   std::sort(sorted.begin(), sorted.end());
   const std::vector<AnyVector> w = points(e.region);
@@ -307,9 +307,9 @@ void GjkCheck::operator()(const recorded::SimplexReduced& e) {
                                      ". The usual cause is a new vertex that is added before the old simplex was reduced.");
   else if (!twice && again)
     check_closest(e);
-  else if (!twice)
+  else if (!twice && !portals_)
     check_region(e), check_closest(e);
-  check_cycle(e.region);
+  if (!portals_) check_cycle(e.region);
   reported_ = true;
   simplex_ = e.region;
   pending_.clear();

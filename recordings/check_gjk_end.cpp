@@ -92,6 +92,7 @@ std::string GjkCheck::not_enclosed(const std::vector<int>& simplex, double v) {
 }
 
 void GjkCheck::operator()(const recorded::GjkEnded& e) {
+  if (portals_) return;  // which hold the origin's ray, not the origin: the supports and the answer tell
   std::vector<int> last = simplex_;
   if (reported_ && (e.status == GjkStatus::separated || e.status == GjkStatus::converged))
     if (const std::vector<AnyVector> w = points(last); !w.empty()) {

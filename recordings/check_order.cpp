@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-#include "recordings/check_context.h"
+#include "recordings/check_record.h"
 
 namespace gjkdbg {
 namespace {
@@ -48,6 +48,7 @@ constexpr Followers table[] = {
     {"contact_found", {"contact_found", "impulse_applied", "state"}},
     {"impulse_applied", {"impulse_applied", "state"}},
     {"state", {"state", "cast_began", "cast_ended"}},
+    {"warning", {"impulse_applied", "state"}},  // that a contact is not known
     {start, {"state", "cast_began", "closed_form_began"}},
 };
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "algo/motion.h"
-#include "recordings/check_context.h"
+#include "recordings/check_record.h"
 
 namespace gjkdbg {
 namespace {
@@ -94,15 +94,26 @@ void RecordCheck::next_in_line(const char* what, int number, int& last) {
   last = number;
 }
 
+bool RecordCheck::same_points(const std::vector<ContactPoint>& x, const std::vector<ContactPoint>& y) const {
+  const double slack = std::max(c_.tolerance, 1e-7 * c_.size);
+  return std::equal(x.begin(), x.end(), y.begin(), y.end(), [&](const ContactPoint& p, const ContactPoint& q) {
+    return (p.point_a - q.point_a).norm() <= slack && (p.point_b - q.point_b).norm() <= slack && std::abs(p.depth - q.depth) <= slack;
+  });
+}
+
 bool RecordCheck::differ(double said, double right) const {
   return std::isfinite(said) && std::abs(said - right) > std::max(c_.tolerance, 1e-7 * c_.size);
 }
 
-/// Bounds that were not known are not said, or are infinite.
+/// A bound that is not known is not said; what is known is. `whose`: "The lower", …
+void RecordCheck::bound(const char* whose, double said, double right) {
+  if (!std::isfinite(said) && std::isfinite(right)) contradiction(std::string(whose) + " bound is not said, but the steps before give " + text_of(right) + ".");
+  else if (differ(said, right)) contradiction(std::string(whose) + " bound is " + text_of(said) + ", but the steps before give " + (std::isfinite(right) ? text_of(right) : "none") + ".");
+}
 void RecordCheck::same_bounds(const char* whose, double lower, double upper) {
   if (!c_.has_supports && !radius_between_) return;
-  if (differ(lower, lower_)) contradiction(std::string(whose) + " lower bound is " + text_of(lower) + ", but the steps before give " + text_of(lower_) + ".");
-  if (differ(upper, upper_)) contradiction(std::string(whose) + " upper bound is " + text_of(upper) + ", but the steps before give " + text_of(upper_) + ".");
+  bound((std::string(whose) + " lower").c_str(), lower, lower_);
+  bound((std::string(whose) + " upper").c_str(), upper, upper_);
 }
 
 void RecordCheck::judge(const recorded::GjkBegan& e) {
@@ -120,24 +131,28 @@ void RecordCheck::judge(const recorded::SupportQueried& e) {
   const AnyVector d = e.direction.stableNormalized();
   axis_ = e.direction;
   if (e.phase == Phase::epa) height_ = std::min(height_, d.dot(e.w)), leads_on(e.direction, chosen_normal_, "the face chosen");
+  if (e.phase == Phase::mpr) height_ = std::min(height_, d.dot(e.w));
+  if (e.phase == Phase::projections) plane_ = std::max(plane_, -d.dot(e.w));
   if (e.phase == Phase::mpr) newest_w_ = e.w, portal_ = portal_ == Portal::none ? Portal::none : Portal::found;
   if (e.phase == Phase::mpr) leads_on(e.direction, std::exchange(from_interior_, AnyVector()), "the way from MPR's inner point to the origin", 100 * c_.digits());
   if (e.phase == Phase::cast && e.iteration != 0 && e.iteration != ray_iteration_ + 1) contradiction("Iteration " + std::to_string(e.iteration) + " of a ray comes after iteration " + std::to_string(ray_iteration_) + ".");
   if (e.phase == Phase::cast) ray_iteration_ = e.iteration;
   if (e.phase != Phase::gjk) return;
   leads_on(e.direction, std::exchange(towards_, AnyVector()), "the nearest point of the simplex");
-  plane_ = std::max(plane_, -d.dot(e.w)), lower_ = plane_ - radius();
+  plane_ = std::max(plane_, -d.dot(e.w));
+  if (c_.recording.settings.name != MethodName::gjk_boolean) lower_ = plane_ - radius();  // which knows no bounds
   const AnyVector first = std::exchange(first_, AnyVector());
   if (asked_.empty() && first.size() > 0 && first != e.direction) contradiction("The first direction is " + text_of(e.direction) + ", but GJK began with " + text_of(first) + ".");
   asked_.insert(asked_.begin(), e.vertex);
 }
 
-/// Newest first; with momentum, a support that brought nothing is not kept.
+/// Newest first; with momentum, a support that brought nothing is not kept: of those asked for since any may be missing, of the simplex none.
 void RecordCheck::judge(const recorded::SimplexReduced& e) {
   std::vector<int> right = std::exchange(asked_, {});
   right.insert(right.end(), simplex_.begin(), simplex_.end());
   const bool some = c_.recording.settings.name == MethodName::gjk_accelerated;
-  const bool known = some ? std::all_of(e.before.begin(), e.before.end(), [&](int v) { return contains(right, v); }) : e.before == right;
+  const bool known = some ? std::all_of(e.before.begin(), e.before.end(), [&](int v) { return contains(right, v); }) && std::all_of(simplex_.begin(), simplex_.end(), [&](int v) { return contains(e.before, v); })
+                          : e.before == right;
   if (!known || std::set<int>(e.before.begin(), e.before.end()).size() != e.before.size())
     contradiction("\"before\" is " + list_of(e.before) + ", but the vertices kept and those asked for since are " + list_of(right) + ".");
   for (const int v : e.region)
@@ -225,6 +240,7 @@ void RecordCheck::judge(const recorded::EpaEnded& e) {
   statuses_.emplace(word_of(e.status)), last_status_ = word_of(e.status);
   lower_ = -height_ - radius();
   if (e.status == EpaStatus::flat || e.status == EpaStatus::separated) lower_ = upper_ = unknowable;
+  if (ours_ && e.face < 0 && !chosen_.empty()) contradiction("EPA ended as \"" + std::string(last_status_) + "\" at no face, but faces of its polytope were chosen.");
   if (e.status == EpaStatus::flat && e.face >= 0) contradiction("EPA ended at face " + std::to_string(e.face) + " of a polytope that is flat: it has none.");
   if (e.face < 0 || !faces_.contains(e.face)) return;
   if (!chosen_.contains(e.face)) contradiction("EPA ends at face " + std::to_string(e.face) + ", which was never chosen.");
@@ -251,6 +267,7 @@ void RecordCheck::result() {
   if (!ours_ && r.status == word_of(GjkStatus::converged) && last_status_ == word_of(GjkStatus::iteration_limit)) contradiction("The result's status is \"" + r.status + "\", but the last phase ended as \"" + std::string(last_status_) + "\".");
   if (!ours_ || statuses_.empty()) return;
   if (const std::string wrong = not_as_asked(); !wrong.empty()) contradiction("The scene asks for \"" + std::string(word_of(c_.recording.scene.scene.query)) + "\", but the result " + wrong + ".");
+  if (const std::string wrong = not_by_this_method(); !wrong.empty()) contradiction("The method is \"" + std::string(word_of(c_.recording.settings.name)) + "\", but " + wrong + ".");
   if (!statuses_.contains(r.status)) contradiction("The result's status is \"" + r.status + "\", with which no phase ended.");
   else if (c_.has_supports && r.status != last_status_) contradiction("The result's status is \"" + r.status + "\", but the last phase ended as \"" + std::string(last_status_) + "\".");
   const AnyVector* at[] = {r.witness_a ? &*r.witness_a : nullptr, r.witness_b ? &*r.witness_b : nullptr};
@@ -259,15 +276,21 @@ void RecordCheck::result() {
     const double off = (*at[1] - *at[0] - *r.signed_distance * *r.normal).norm(), most = std::max(at[0]->norm(), at[1]->norm()) + std::abs(*r.signed_distance);
     if (off > c_.digits() * most) contradiction("witness_b - witness_a is off signed_distance * normal by " + text_of(off) + ".");
   }
-  if (c_.recording.generator == generator_name() && r.contacts) {
-    const std::optional<std::vector<ContactPoint>> again = solve(c_.recording.scene.scene, c_.recording.settings).contacts;
-    if (again && again->size() != r.contacts->size()) contradiction("The result has " + std::to_string(r.contacts->size()) + " contact points; the scene has " + std::to_string(again->size()) + ".");
-  }
   if (r.iterations != iterations_) contradiction("The result counts " + std::to_string(r.iterations) + " iterations, the phases " + std::to_string(iterations_) + ".");
   if (c_.recording.scene.scene.query == Query::distance) lower_ = std::max(lower_, 0.0), upper_ = r.intersecting ? unknowable : upper_;
   if (c_.has_supports && r.lower_bound && r.upper_bound) same_bounds("The result's", *r.lower_bound, *r.upper_bound);
-  const bool more = c_.recording.settings.name == MethodName::sat || c_.recording.settings.name == MethodName::mpr || c_.recording.settings.penetration == Penetration::mpr;  // to find which points meet, without a trace
-  if (r.support_calls < supports_ || (r.support_calls > supports_ && !more)) contradiction("The result counts " + std::to_string(r.support_calls) + " support calls, but " + std::to_string(supports_) + " were made.");
+  // Which points meet is looked for without a trace, contact points are, and of meshes the parts are put together: only the same again tells.
+  const bool more = c_.recording.settings.name == MethodName::sat || c_.recording.settings.name == MethodName::mpr || c_.recording.settings.penetration == Penetration::mpr;
+  int right = more ? std::max(supports_, r.support_calls) : supports_;
+  if (c_.recording.generator == generator_name() && (more || r.contacts || !c_.has_supports)) {
+    const Result again = solve(c_.recording.scene.scene, c_.recording.settings);
+    if (more) right = again.support_calls;
+    if (r.contacts && again.contacts && again.contacts->size() != r.contacts->size()) contradiction("The result has " + std::to_string(r.contacts->size()) + " contact points; the scene has " + std::to_string(again.contacts->size()) + ".");
+    else if (r.contacts && again.contacts && !same_points(*r.contacts, *again.contacts)) contradiction("The contact points are not those of the scene.");
+    if (!c_.has_supports && r.lower_bound && again.lower_bound) bound("The result's lower", *r.lower_bound, *again.lower_bound);
+    if (!c_.has_supports && r.upper_bound && again.upper_bound) bound("The result's upper", *r.upper_bound, *again.upper_bound);
+  }
+  if (r.support_calls != right) contradiction("The result counts " + std::to_string(r.support_calls) + " support calls, but " + std::to_string(right) + (right == supports_ ? " were made." : " are made of the scene."));
 }
 
 }  // namespace gjkdbg

@@ -28,6 +28,7 @@ struct Judge {
   double limit;        ///< absolute, on distances
   bool portal;         ///< the depth is MPR's, and more than the right one
   bool limited;        ///< says itself that it is not exact
+  bool any_way;        ///< a solver's, said to be MPR: any way out is right that is as long as it says
 
   void answer(double best_plane) const {
     const double sd = *right.signed_distance;
@@ -41,12 +42,18 @@ struct Judge {
     c.find("wrong-answer", std::string("The bodies are called ") + (r.intersecting ? "overlapping" : "apart") + ", but they are " + (sd <= 0 ? "overlapping, " + text_of(-sd) + " deep" : "apart by " + text_of(sd)) + ".");
   }
 
+  /// A depth of MPR: no less than the right one, and as far as the bodies reach into each other along its normal.
+  bool way_out() const {
+    if (!any_way || !r.signed_distance || *r.signed_distance > *right.signed_distance) return false;
+    return !r.normal || std::abs(c.apart_along(*r.normal) - *r.signed_distance) <= 10 * c.answer_tolerance();
+  }
+
   void distance() const {
     if (!r.signed_distance) return;
     const bool only_distance = c.recording.scene.scene.query == Query::distance;
     const double sd = only_distance ? std::max(0.0, *right.signed_distance) : *right.signed_distance;
     const double error = std::abs(*r.signed_distance - sd);
-    if (error <= limit + (*right.upper_bound - *right.lower_bound)) return;
+    if (error <= limit + (*right.upper_bound - *right.lower_bound) || way_out()) return;
     if (only_distance && sd == 0) {
       if (std::abs(*r.signed_distance - *right.signed_distance) <= limit) return;  // the depth was not asked for, but is no error
       return c.find("wrong-distance", "signed_distance is " + text_of(*r.signed_distance) + ", but the bodies overlap: a distance query's answer is 0.");
@@ -102,6 +109,7 @@ struct Judge {
     // What is not the best way out is one all the same: the bodies are as deep along it as is said.
     const bool as_said = !limited || !r.signed_distance || along >= *r.signed_distance - 10 * c.answer_tolerance();
     if (along >= sd - slack && as_said) return;
+    if (way_out()) return;
     if (against >= sd - slack)
       c.find("flipped-normal", "The normal " + text_of(n) + " points from body 1 to body 0; expected is " + text_of(AnyVector(-n)) + ", from body 0 towards body 1.");
     else
@@ -117,6 +125,7 @@ struct Judge {
   void witnesses() const {
     const Scene& scene = c.recording.scene.scene;
     const double slack = 10 * limit + rounding();
+    if (way_out() && *r.signed_distance < *right.signed_distance - limit) return;  // no points of both bodies lie that far apart along that normal
     const double out_a = r.witness_a ? outside(scene, 0, *r.witness_a) : 0, out_b = r.witness_b ? outside(scene, 1, *r.witness_b) : 0;
     if (out_a > slack || out_b > slack) {
       const bool a = out_a > slack, swapped = r.witness_a && r.witness_b && outside(scene, 0, *r.witness_b) <= slack && outside(scene, 1, *r.witness_a) <= slack && (!measured() || belong_together(*r.witness_b, *r.witness_a));
@@ -173,7 +182,7 @@ struct Judge {
       const ContactPoint& p = (*r.contacts)[i];
       const std::string name = "Contact point " + std::to_string(i) + ", " + text_of(p.point_a) + " and " + text_of(p.point_b) + ", " + text_of(p.depth) + " deep, ";
       for (std::size_t before = 0; before < i; ++before)
-        if (const ContactPoint& q = (*r.contacts)[before]; (p.point_a - q.point_a).norm() <= c.tolerance && (p.point_b - q.point_b).norm() <= c.tolerance)
+        if (const ContactPoint& q = (*r.contacts)[before]; (p.point_a - q.point_a).norm() <= 1e-9 * c.size && (p.point_b - q.point_b).norm() <= 1e-9 * c.size)  // in single precision, too: neighbours may be as near as that rounds
           c.find("wrong-contact", name + "is point " + std::to_string(before) + " again.", Finding::Severity::warning);
       const double off = r.normal ? (p.point_b - p.point_a + p.depth * *r.normal).norm() : std::abs((p.point_b - p.point_a).norm() - std::abs(p.depth));
       const double out = std::max(outside(scene, 0, p.point_a), outside(scene, 1, p.point_b));
@@ -198,7 +207,8 @@ void check_result(CheckContext& c, double best_plane) {
   const bool exact = recording.result.signed_distance && std::abs(*recording.result.signed_distance - *right.signed_distance) <= limit * limit / c.size;
   if (limited && !(portal && exact) && recording.result.lower_bound && recording.result.upper_bound) limit += *recording.result.upper_bound - *recording.result.lower_bound;
   if (!recording.events.empty()) c.step = recording.events.size() - 1;
-  const Judge judge{c, recording.result, right, limit, portal && !exact && !c.inferred, limited};  // a solver may answer a scene of MPR by other means
+  const bool any_way = c.inferred && portal && recording.settings.name == MethodName::mpr && *right.signed_distance <= 0;
+  const Judge judge{c, recording.result, right, limit, portal && !exact && !c.inferred, limited, any_way};  // a solver may answer a scene of MPR by other means
   judge.answer(best_plane);
   judge.distance();
   judge.bounds();

@@ -152,7 +152,8 @@ void TraceCheck::bounds(double lower, double upper) {
 
 /// Along a unit normal the bodies are as far apart, or as little deep, as is said.
 void TraceCheck::along(const AnyVector& normal, double distance) {
-  if (!c_.has_supports || c_.inferred || !normal.allFinite() || normal.isZero(0)) return;
+  if (!c_.has_supports || c_.inferred || normal.isZero(0)) return;
+  if (!normal.allFinite()) return c_.find("non-finite-direction", "The direction " + text_of(normal) + " holds what is no number.");
   if (std::abs(normal.norm() - 1) > 1e-4) {
     c_.find("wrong-normal", "The normal " + text_of(normal) + " has length " + text_of(normal.norm()) + " instead of 1.");
     return;
@@ -220,9 +221,12 @@ void TraceCheck::judge(const recorded::AxisTested& e) {
 
 void TraceCheck::judge(const recorded::PointsProjected& e) {
   bounds(e.lower_bound, e.upper_bound);
+  if (!e.closest.allFinite()) return no_point(e.closest);
   if (!belong_together(e.a, e.b, e.closest)) return;
   if (open_ == sat || e.closest.norm() - c_.radius < e.upper_bound) nearest(e.closest, e.upper_bound);  // else there was a nearer one before
 }
+
+void TraceCheck::no_point(const AnyVector& closest) { c_.find("wrong-closest", "The nearest point is given as " + text_of(closest) + ", which is no point."); }
 
 void TraceCheck::judge(const recorded::SatEnded& e) { along(e.normal, e.distance); }
 
@@ -232,9 +236,11 @@ void TraceCheck::judge(const recorded::ProjectionsEnded& e) { bounds(e.lower_bou
 void TraceCheck::judge(const recorded::ClosedFormEnded& e) {
   bounds(e.lower_bound, e.upper_bound);
   if (c_.recording.scene.scene.query > Query::distance) along(e.normal, (e.lower_bound + e.upper_bound) / 2);
+  if (e.closest.size() > 0 && !e.closest.allFinite()) return no_point(e.closest);
   if (!segments_ || !std::isfinite(e.s) || !std::isfinite(e.t)) return;
   const AnyVector right = segments_->corner + e.s * segments_->edge_a - e.t * segments_->edge_b;
-  if ((right - e.closest).norm() > std::max(c_.tolerance, 1e-7 * c_.size))
+  const double lost = c_.digits() * (segments_->corner.norm() + segments_->edge_a.norm() + segments_->edge_b.norm());  // of lengths that cancel
+  if ((right - e.closest).norm() > std::max(c_.tolerance, 1e-7 * c_.size) + lost)
     c_.find("wrong-closest", "s = " + text_of(e.s) + " and t = " + text_of(e.t) + " give the point " + text_of(right) + ", but the nearest is given as " + text_of(e.closest) + ".");
 }
 

@@ -276,9 +276,11 @@ std::string nearest_name(std::string_view word, const std::vector<std::string_vi
   return best;
 }
 
-ObjectReader::ObjectReader(const Json& json, const Place& place) : json_(json), place_(place) {
+void require_object(const Json& json, const Place& place) {
   if (!json.is_object()) reject(place, "wrong-type", std::string(place.pointer().empty() ? "the top level " : "") + "must be an object, not " + json.type_name());
 }
+
+ObjectReader::ObjectReader(const Json& json, const Place& place) : json_(json), place_(place) { require_object(json, place); }
 
 const Json* ObjectReader::optional(std::string_view key) {
   known_.push_back(key);

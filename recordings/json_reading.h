@@ -78,6 +78,7 @@ class ObjectReader {
   std::vector<std::string_view> known_{note_names.begin(), note_names.end()};
 };
 
+void require_object(const Json& json, const Place& place);
 double read_number(const Json& json, const Place& place);
 int read_integer(const Json& json, const Place& place, int low, int high);
 bool read_bool(const Json& json, const Place& place);

@@ -12,7 +12,7 @@ constexpr int largest_number = std::numeric_limits<int>::max();
 struct FieldReader {
   int dimension;
 
-  void read(const Json& json, const Place& place, std::string_view name, int& x) const { x = read_integer(json, place, name == "iteration" ? 0 : -1, largest_number); }
+  void read(const Json& json, const Place& place, std::string_view, int& x) const { x = read_integer(json, place, 0, largest_number); }
 
   void read(const Json& json, const Place& place, std::string_view name, double& x) const {
     const bool bound = name == "lower_bound" || name == "upper_bound";
@@ -83,6 +83,8 @@ struct FieldReader {
       const Place here(place, f.name);
       if (found == json.end()) reject(here, "missing-field", "is missing");
       if constexpr (std::is_same_v<E, recorded::LinesSolved>) event.*f.member = number_or_null(*found, here);  // null: a point, or parallel
+      else if constexpr (std::is_same_v<E, recorded::EpaEnded> && std::is_same_v<std::decay_t<decltype(event.*f.member)>, int>)
+        event.*f.member = read_integer(*found, here, f.name == "face" ? -1 : 0, largest_number);  // -1: a flat difference has none
       else read(*found, here, f.name, event.*f.member);
       ++known;
     };
@@ -207,6 +209,8 @@ Recording read_head(const Json& json, const std::filesystem::path& directory) {
   Recording recording;
   if (const Json* generator = o.optional("generator")) recording.generator = read_string(*generator, o.at("generator"));
   const Json& scene = o.required("scene");
+  require_object(scene, o.at("scene"));
+  require_object(o.required("method"), o.at("method"));
   try {
     recording.scene = scene_from_json(scene, directory);
   } catch (const Error& e) {

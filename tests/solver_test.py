@@ -17,6 +17,7 @@ from solver_causes import CAUSES, NEGATED, SINGLE
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 KIT = ROOT / "debugger/solver/kits/gjk.py"
 MURATORI = ROOT / "tests/muratori_solver.py"
+MPR = ROOT / "tests/mpr_solver.py"
 PROGRAM = os.path.abspath(sys.argv.pop(1))
 SOURCE = KIT.read_text()
 
@@ -39,11 +40,18 @@ def moves(scene):
 
 class Solver(unittest.TestCase):
     def run_kit(self, scene, command, *more):
-        result = subprocess.run([PROGRAM, "run", str(scene), "--name", "gjk", "--exec", command, "--json", *more], capture_output=True, text=True)
+        result = subprocess.run([PROGRAM, "run", str(scene), *(() if "--method" in more else ("--name", "gjk")), "--exec", command, "--json", *more], capture_output=True, text=True)
         self.assertIn(result.returncode, (0, 1), result.stderr)
         findings = json.loads(result.stdout)["findings"]
         self.assertEqual(result.returncode, 1 if findings else 0)
         return findings
+
+    def recorded(self, scene, lines):
+        """The supports that gjkdbg gives to these messages."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "recording.json")
+            subprocess.run([PROGRAM, "run", scene, "--exec", f"cat >/dev/null & printf '%s\\n' {lines}", "-o", str(path)], capture_output=True)
+            return [e for e in json.loads(path.read_text())["events"] if e["kind"] == "support_queried"]
 
     def expect(self, findings, code, name):
         codes = [f["code"] for f in findings]
@@ -173,6 +181,26 @@ class Solver(unittest.TestCase):
     def test_muratoris_form_is_clean_on_the_gallery(self):
         self.clean_on_the_gallery(f"/usr/bin/python3 {ROOT / 'tests/muratori_solver.py'}", space_only=True)
 
+    def test_portals_are_judged_as_portals(self):
+        """Said to be MPR's, simplices lead outwards, and a depth is a way out. What it claims is judged all the same."""
+        scenes = ("mpr-box-box", "box-box-deep", "obb-shallow", "box-box-apart", "pair-sphere-box", "pair-cone-ellipsoid", "boolean-hit-3d", "boolean-miss-3d", "hull-tetrahedra", "cylinder-box-deep")
+        command, ways = f"/usr/bin/python3 {MPR}", []
+        for scene in scenes:
+            with self.subTest(scene):
+                self.assertEqual(self.run_kit(scene, command, "--method", "mpr"), [])
+            ways += [finding["code"] for finding in self.run_kit(scene, command)]
+        self.assertTrue(ways, "by GJK's rules there is something to say")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "wrong.py")
+            for old, new, scene, code in (("if proves and dot(self.w, d) < 0", "if proves and dot(self.w, d) > 0", "box-box-deep", "unjustified-separation"), ("raise Apart", "pass", "boolean-miss-3d", "wrong-answer"),
+                                          ('"signed_distance": -way_out[1]', '"signed_distance": -1.2 * way_out[1]', "box-box-deep", "wrong-depth"),
+                                          ('"signed_distance": -way_out[1]', '"signed_distance": -0.5 * way_out[1]', "box-box-deep", "wrong-depth"),
+                                          ("x.number for x in portal", "x.number + 40 for x in portal", "box-box-deep", "unknown-vertex")):
+                self.assertIn(old, MPR.read_text())
+                path.write_text(MPR.read_text().replace(old, new, 1))
+                with self.subTest(new):
+                    self.expect(self.run_kit(scene, f"/usr/bin/python3 {path}", "--method", "mpr"), code, new)
+
     def test_cpp_kit_is_clean_on_the_gallery(self):
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run(["c++", "-std=c++17", "-O1", "-Wall", "-Wextra", "-Werror", str(KIT.parent / "gjk.cpp"), "-o", folder + "/gjk"], check=True)
@@ -256,6 +284,25 @@ class Solver(unittest.TestCase):
             findings = self.run_kit(box, "cat >/dev/null & printf '%s\\n' " + " ".join(f"'{line}'" for line in lines))
             with self.subTest(lines):
                 self.assertEqual([f["code"] for f in findings][:1], [code] if code else [])
+        # A face before any polytope: its distance is along its normal, its normal leads out, and it has an area.
+        asked = " ".join(f"'{line}'" for line in ('{"type":"support","direction":[1,0]}', '{"type":"support","direction":[0,1]}', '{"type":"support","direction":[-1,0]}'))
+        supports = [[float(x) for x in e["w"]] for e in self.recorded("2d-deep", asked)]
+        p, q = supports[0], supports[1]
+        across = [q[1] - p[1], p[0] - q[0]]
+        n = [x / (across[0] ** 2 + across[1] ** 2) ** 0.5 for x in across]
+        if n[0] * p[0] + n[1] * p[1] < 0:
+            n = [-x for x in n]
+        d = n[0] * p[0] + n[1] * p[1]
+        for vertices, normal, distance, code in (([0, 1], n, d, None), ([0, 1], n, -d, "wrong-face"), ([0, 1], [-x for x in n], d, "wrong-face"), ([0, 1], [-x for x in n], -d, "wrong-face"), ([0, 0], n, d, "zero-area-face"),
+                                                 ([0, 1], [0, 0], d, "wrong-face"), ([0, 1], None, d, None)):
+            message = json.dumps({"type": "face", "vertices": vertices, "normal": normal, "distance": distance})
+            findings = self.run_kit("2d-deep", f"cat >/dev/null & printf '%s\\n' {asked} '{message}' '{result}'")
+            with self.subTest(message):
+                self.assertEqual([f["code"] for f in findings if f["code"] in ("wrong-face", "zero-area-face")], [code] if code else [])
+        # What a message has in the wrong place is told as that.
+        for message, said in (('{"type":1}', "/type: must be a string, one of support, simplex, polytope, face, result, not number"), ("{}", "/type: is missing; it is one of support"), ("[]", "is no JSON object")):
+            findings = self.run_kit(box, f"cat >/dev/null & printf '%s\\n' '{message}'")
+            self.assertIn(said, findings[0]["message"])
         # A normal that is no number does not hide what the rest says.
         findings = self.run_kit(box, f"cat >/dev/null & printf '%s\\n' '{far}' '" + '{"type":"result","intersecting":false,"normal":[NaN,0,0]}' + "'")
         self.assertEqual([f["code"] for f in findings], ["bad-message", "unjustified-separation", "wrong-answer"])

@@ -124,6 +124,7 @@ void SolverRecorder::face(const Json& json) {
     }
   const auto found = faces_.find(std::set<int>(vertices.begin(), vertices.end()));
   recorded::Face face = found != faces_.end() ? found->second : make_face(vertices);
+  if (found == faces_.end() && face.distance < 0) face.normal = -face.normal, face.distance = -face.distance;  // away from the origin
   recorded::FaceChosen e{epa_iteration_, face.face, face.normal, face.distance};
   const bool known = found != faces_.end();
   if (!known && epa_) {
@@ -135,22 +136,35 @@ void SolverRecorder::face(const Json& json) {
     e.normal = read_vector(*n, Place(root, "normal"), dimension_);
   }
   if (const auto d = json.find("distance"); d != json.end() && !d->is_null()) e.distance = read_number(*d, Place(root, "distance"));
-  if (!known) check_plane(face, e);
+  if (!known && check_area(face)) check_plane(face, e);
   chosen_ = face;
   recording_.events.push_back(std::move(e));
 }
 
-/// The plane that is given for a face of no polytope, which `check` knows nothing of, holds its vertices.
+/// Of a face of no polytope, too: where it names a vertex twice, or three in a line, it has no area and no normal.
+bool SolverRecorder::check_area(const recorded::Face& face) {
+  const bool twice = std::set<int>(face.vertices.begin(), face.vertices.end()).size() != face.vertices.size();
+  const bool known = std::all_of(face.vertices.begin(), face.vertices.end(), [&](int v) { return vertices_.contains(v); });
+  if (!twice && (!known || !face.normal.isZero(0))) return true;
+  recording_.events.push_back(recorded::Warning{"zero-area-face", "The face chosen, " + list_of(face.vertices) + (twice ? ", names a vertex twice" : ", has no area") + ", so it has no normal. The usual cause is " +
+                                                                      (twice ? "an index that is off by one." : "a new vertex in line with an edge of the horizon, or one that the polytope already had.")});
+  return false;
+}
+
+/// The plane that is given for a face of no polytope, which `check` knows nothing of, holds its vertices, and has the origin on its inner side: the normal leads out.
 void SolverRecorder::check_plane(const recorded::Face& face, const recorded::FaceChosen& given) {
-  const double length = given.normal.norm();
+  const double length = given.normal.stableNorm();
+  const std::string said = "The face chosen, " + list_of(face.vertices) + ", is given the normal " + text_of(given.normal) + " and the distance " + text_of(given.distance);
+  if (!(length > 0)) return recording_.events.push_back(recorded::Warning{"wrong-face", said + ", but a normal has a length."});
   for (const int v : face.vertices) {
     const auto w = vertices_.find(v);
-    if (w == vertices_.end() || !(length > 0)) continue;
-    const double at = given.normal.dot(w->second) / length, slack = 1e-6 * (w->second.norm() + std::abs(given.distance));
-    if (std::abs(std::abs(at) - std::abs(given.distance)) <= slack) continue;
+    if (w == vertices_.end()) continue;
+    const double at = (given.normal / length).dot(w->second), slack = 1e-6 * (w->second.norm() + std::abs(given.distance));
+    const bool holds = std::abs(at - given.distance) <= slack, other_side = std::abs(at + given.distance) <= slack;
+    if (holds && given.distance >= -slack) continue;
     const bool by_its_length = std::abs(length - 1) > 1e-4 && std::abs(std::abs(at) * length - std::abs(given.distance)) <= slack * std::max(length, 1.0);
-    recording_.events.push_back(recorded::Warning{"wrong-face", "The face chosen, " + list_of(face.vertices) + ", is given the normal " + text_of(given.normal) + " and the distance " + text_of(given.distance) + ", but its vertex " + std::to_string(v) + " lies at " +
-                                                                  text_of(at) + " along it." + (by_its_length ? by_length(length) : "")});
+    recording_.events.push_back(recorded::Warning{"wrong-face", said + ", but its vertex " + std::to_string(v) + " lies at " + text_of(at) + " along it." +
+                                                                  (holds || other_side ? " The normal of a face leads away from the origin, and the distance along it is above zero: turn the one whose sign is wrong." : by_its_length ? by_length(length) : "")});
     return;
   }
 }

@@ -63,7 +63,9 @@ std::string SolverRecorder::take(const std::string& line) {
   const Place root;
   if (!json.is_object()) reject(root, "bad-message", "is no JSON object");
   const auto type = json.find("type");
-  if (type == json.end() || !type->is_string()) reject(Place(root, "type"), "bad-message", "is missing");
+  constexpr const char* types = "support, simplex, polytope, face, result";
+  if (type == json.end()) reject(Place(root, "type"), "bad-message", std::string("is missing; it is one of ") + types);
+  if (!type->is_string()) reject(Place(root, "type"), "bad-message", std::string("must be a string, one of ") + types + ", not " + type->type_name());
   const std::string name = type->get<std::string>();
   note_unknown_fields(name, json);
   if (name == "support") return support(json);
@@ -71,7 +73,7 @@ std::string SolverRecorder::take(const std::string& line) {
   else if (name == "polytope") polytope(json);
   else if (name == "face") face(json);
   else if (name == "result") result(json);
-  else reject(Place(root, "type"), "bad-message", "\"" + name + "\" is none of support, simplex, polytope, face, result");
+  else reject(Place(root, "type"), "bad-message", "\"" + name + "\" is none of " + types);
   return {};
 }
 

@@ -39,6 +39,7 @@ class SolverRecorder {
   void note_unknown_fields(const std::string& type, const Json& json);
   void check_announced(const AnyVector& direction);
   void check_plane(const recorded::Face& face, const recorded::FaceChosen& given);
+  bool check_area(const recorded::Face& face);
   double nearest_face() const;
   void begin(const AnyVector& direction);
   void end_gjk(GjkStatus status);

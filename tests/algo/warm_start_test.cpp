@@ -117,7 +117,7 @@ TEST(WarmStart, AnyPairFromAnotherPlace) {
 }
 
 TEST(WarmStart, RefusesWhatIsNoSimplexOfTheBodies) {
-  const Scene scene = Passing().at(0);
+  Scene scene = Passing().at(0);
   const auto refused = [&](std::vector<SimplexPoint> points, std::optional<Start> start = {}) {
     Method method;
     method.start = start, method.initial_simplex = std::move(points);
@@ -132,6 +132,8 @@ TEST(WarmStart, RefusesWhatIsNoSimplexOfTheBodies) {
   EXPECT_EQ(refused({{inside, inside}}), "accepted");
   EXPECT_EQ(refused({{inside, inside}, {inside, outside}}), "/method/initial_simplex/1/b: is no point of body \"B\"");
   EXPECT_EQ(refused(std::vector<SimplexPoint>(5, {inside, inside})), "/method/initial_simplex: initial_simplex has at most 4 vertices");
+  scene.bodies[1].name.clear();
+  EXPECT_EQ(refused({{inside, inside}, {inside, outside}}), "/method/initial_simplex/1/b: is no point of body 1") << "by number, where it has no name";
   EXPECT_EQ(refused({{inside, Eigen::Vector2d(0, 0)}}), "/method/initial_simplex/0/b: needs 3 numbers");
   EXPECT_EQ(refused({{inside, inside}}, Start::centres), "/method/start: initial_simplex goes with start \"previous\"");
   EXPECT_EQ(refused({}, Start::given), "/method/start: start \"given\" needs initial_direction");

@@ -246,5 +246,52 @@ TEST(CheckMotion, CastsAtLowLimitsAreClean) {
   }
 }
 
+/// A ball that bounces for ever, on a floor or a hill, at any limit: no step gains energy, no run of GJK or EPA that came to its limit is acted on in silence, and its contacts do
+/// not bounce. That the semi-implicit rule has more energy after a bounce than before it, by m |g| h |v|, is no gain: the fall before had lost half of it, the rise loses the rest.
+TEST(CheckMotion, BouncesAtAnyLimitAreClean) {
+  RandomScenes random(17);
+  int limited = 0;
+  for (int k = 0; k < pairs_asked(240); ++k) {
+    SceneFile file = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 2, "query": "simulate", "gravity": [0, -9.81], "steps": 90, "bodies": [
+      {"shape": {"type": "ellipse", "radii": [3, 1]}, "static": true}, {"shape": {"type": "circle", "radius": 0.5}, "pose": {"position": [0, 2.5]}, "restitution": 1}]})", {});
+    Scene& scene = file.scene;
+    if (k % 3 == 1) scene.bodies[0].shape = {Box{plane(-3, -1), plane(3, 1)}, 0};
+    if (k % 4 == 1) scene.bodies[1].shape = {Ellipsoid{plane(random.uniform(0.2, 1), random.uniform(0.2, 1))}, 0};
+    scene.bodies[1].motion->velocity = plane(random.uniform(-1, 1), 0);
+    scene.bodies[1].pose.position = plane(random.uniform(-1, 1), random.uniform(2, 3.5));
+    scene.motion->integrator = static_cast<Integrator>(k % 3);
+    if (k % 5 != 0) file.method.max_iterations = random.integer(3, 14);
+    const Recording recording = record(file);
+    ASSERT_EQ(told(recording), "") << k;
+    const auto unknown = [](const Event& e) { return std::holds_alternative<recorded::Warning>(e) && std::get<recorded::Warning>(e).code == "contact-unknown"; };
+    const auto warning = std::find_if(recording.events.begin(), recording.events.end(), unknown);
+    if (warning == recording.events.end()) continue;
+    ++limited;
+    Recording silent = recording;
+    std::erase_if(silent.events, unknown);
+    EXPECT_NE(told(silent).find("inconsistent"), std::string::npos) << "a limit that is not told";
+  }
+  EXPECT_GT(limited, 10 * pairs_asked(240) / 240);
+}
+
+/// Of another program that turns back after the fall what ours turns back in the middle of it: a bounce gains m |g| h |v|, which its depth does not make up for.
+TEST(CheckMotion, ABounceThatGainsIsOne) {
+  SceneFile file = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 2, "query": "simulate", "gravity": [0, -9.81], "steps": 60, "bodies": [
+    {"shape": {"type": "ellipse", "radii": [3, 1]}, "static": true}, {"shape": {"type": "circle", "radius": 0.5}, "pose": {"position": [0, 3.37]}, "restitution": 1}]})", {});
+  Recording more = record(file);
+  EXPECT_EQ(told(more), "");
+  more.generator = "another";
+  bool bounced = false;
+  for (Event& e : more.events) {
+    bounced = bounced || std::holds_alternative<recorded::ImpulseApplied>(e);
+    auto* state = std::get_if<recorded::State>(&e);
+    if (!state || !bounced) continue;
+    recorded::BodyState& ball = state->bodies[1];
+    const double before = ball.velocity[1];
+    ball.velocity[1] += 9.81 / 60, state->momentum[1] += 9.81 / 60, state->energy += (ball.velocity[1] * ball.velocity[1] - before * before) / 2;
+  }
+  EXPECT_NE(told(more).find("energy-gained"), std::string::npos) << told(more);
+}
+
 }  // namespace
 }  // namespace gjkdbg
