@@ -113,7 +113,16 @@ std::string save(const App& app, const std::string& file) {
   try {
     if (file.ends_with(".png") || file.ends_with(".svg") || file.ends_with(".gif")) return render_to(app, file), std::string();
     const Recording& recording = app.session.recording();
-    write_output(file, file.ends_with(".recording.json") ? recording_to_text(recording) : pretty_json(scene_to_json(app.session.scene_to_keep())) + "\n");
+    const SceneFile scene = app.session.scene_to_keep();
+    if (!file.ends_with(".recording.json")) {
+      write_output(file, pretty_json(scene_to_json(scene)) + "\n");
+    } else if (scene.scene.description == recording.scene.scene.description) {
+      write_output(file, recording_to_text(recording));
+    } else {
+      Recording kept = recording;
+      kept.scene = scene;
+      write_output(file, recording_to_text(kept));
+    }
     return {};
   } catch (const Error& e) {
     return e.line();
