@@ -43,6 +43,7 @@ void RecordCheck::judge(const recorded::MprBegan& e) {
 
 /// The origin's distance from the boundary of the hull of the inner point and the portal: no depth is less. NaN where it is rounding that has the origin inside.
 double RecordCheck::clearance(const recorded::PortalFound& e) const {
+  if (inside_.size() != c_.dimension) return unknowable;  // the step that tells it is not there
   const double uncertain = std::max(c_.tolerance, 1e-7 * c_.size);
   std::vector<AnyVector> w;
   for (const int v : e.vertices)
