@@ -77,7 +77,8 @@ void RecordCheck::judge(const recorded::MprEnded& e) {
   const bool apart = e.status == MprStatus::separated;
   if (e.status != MprStatus::flat && (apart ? e.depth > c_.tolerance : e.depth < -c_.tolerance)) contradiction("MPR ended as \"" + std::string(last_status_) + "\", with a depth of " + text_of(e.depth) + ".");
   // "Overlapping" is known by a portal, or by a vertex that the ray from the inner point hits.
-  const bool hit = portal_ == Portal::none && (interior_.isZero(0) || (newest_w_ - newest_w_.dot(interior_) * interior_).norm() <= 1e-6 * c_.size);
+  const auto on_the_ray = [&] { return interior_.isZero(0) || (newest_w_ - newest_w_.dot(interior_) * interior_).norm() <= 1e-6 * c_.size; };
+  const bool hit = portal_ == Portal::none && newest_w_.size() == interior_.size() && on_the_ray();
   if (e.status == MprStatus::overlapping && newest_w_.size() > 0 && !hit && portal_ != Portal::found_last) contradiction("MPR ended as \"overlapping\" without the portal that shows it.");
   lower_ = upper_ = unknowable;
   if (c_.recording.settings.penetration != Penetration::mpr || c_.recording.scene.scene.query <= Query::distance || e.status == MprStatus::flat || apart) return;

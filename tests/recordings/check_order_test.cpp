@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <ostream>
+#include <random>
 #include <string>
 
 #include "recordings/check.h"
@@ -47,6 +48,19 @@ TEST_P(CheckOrder, AStepTooFewIsFound) {
     Recording wrong = right;
     wrong.events.erase(wrong.events.begin() + static_cast<std::ptrdiff_t>(i));
     EXPECT_FALSE(check(wrong).empty()) << i << " " << kind;
+  }
+}
+
+/// Of whatever is left of a run, in whatever order, nothing is taken for granted that an earlier step would have told.
+TEST_P(CheckOrder, AnyPartOfARunIsJudged) {
+  const Recording right = recorded(GetParam());
+  std::mt19937 random(3);
+  for (int run = 0; run < 150; ++run) {
+    Recording wrong = right;
+    std::shuffle(wrong.events.begin(), wrong.events.end(), random);
+    wrong.events.resize(1 + random() % std::min<std::size_t>(right.events.size(), 12));
+    EXPECT_FALSE(check(wrong).empty()) << run;
+    for (std::size_t step = 0; step < wrong.events.size(); ++step) frame_at(wrong, step);
   }
 }
 
