@@ -1,6 +1,7 @@
 // From the frame the algorithms work in (body 0's axes, its core's reference point, scaled) to the world's.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "algo/minkowski_difference.h"
@@ -89,9 +90,10 @@ class WorldTrace {
   }
 
   void operator()(const SimplexReduced<V, Viewed>& e) {
-    const std::vector<int> before = vertices(e.before), region = vertices(e.region);
+    make_room(e.before.size() + e.region.size());
     AnyVector closest;
     if (!e.closest.hasNaN()) closest = frame_.vector(e.closest);
+    const std::span<const int> before = vertices(e.before), region = vertices(e.region);
     sink_(world::SimplexReduced{e.iteration, before, region, e.barycentric, closest, length(e.lower_bound), length(e.upper_bound)});
   }
 
@@ -100,8 +102,9 @@ class WorldTrace {
   }
 
   void operator()(const PolytopeSeeded<V, Viewed>& e) {
-    const Faces faces(*this, e.faces);
-    sink_(world::PolytopeSeeded{vertices(e.vertices), faces.events});
+    make_room(e.vertices.size() + D * e.faces.size());
+    const std::span<const int> list = vertices(e.vertices);
+    sink_(world::PolytopeSeeded{list, faces(e.faces)});
   }
 
   void operator()(const FaceChosen<V, Viewed>& e) {
@@ -109,13 +112,12 @@ class WorldTrace {
   }
 
   void operator()(const PolytopeGrown<V, Viewed>& e) {
-    const Faces added(*this, e.added);
-    std::vector<int> removed;
-    std::vector<Edge> horizon;
-    for (const int f : e.removed) removed.push_back(face(f));
-    for (const Edge& edge : e.horizon) horizon.push_back({vertex(edge[0]), vertex(edge[1])});
-    sink_(world::PolytopeGrown{e.iteration, vertex(e.vertex), removed, horizon, added.events, length(e.lower_bound),
-                               length(e.upper_bound)});
+    make_room(e.removed.size() + D * e.added.size());
+    for (const int f : e.removed) lists_.push_back(face(f));
+    const std::span<const int> removed(lists_);
+    horizon_.clear();
+    for (const Edge& edge : e.horizon) horizon_.push_back({vertex(edge[0]), vertex(edge[1])});
+    sink_(world::PolytopeGrown{e.iteration, vertex(e.vertex), removed, horizon_, faces(e.added), length(e.lower_bound), length(e.upper_bound)});
   }
 
   void operator()(const EpaEnded<V, Viewed>& e) {
@@ -125,6 +127,7 @@ class WorldTrace {
   void operator()(const MprBegan<V, Viewed>& e) { sink_(world::MprBegan{frame_.vector(e.interior)}); }
 
   void operator()(const PortalFound<V, Viewed>& e) {
+    make_room(e.vertices.size());
     sink_(world::PortalFound{e.iteration, vertices(e.vertices), frame_.direction(e.normal), length(e.distance), length(e.lower_bound),
                              length(e.upper_bound)});
   }
@@ -169,18 +172,6 @@ class WorldTrace {
   void operator()(const Warning<V, Viewed>& e) { sink_(world::Warning{e.code, e.message}); }
 
  private:
-  struct Faces {
-    std::vector<std::vector<int>> vertices;
-    std::vector<FaceEvent<AnyVector, Viewed>> events;
-    Faces(WorldTrace& trace, std::span<const FaceEvent<V, Viewed>> faces) {
-      vertices.reserve(faces.size());
-      for (const auto& f : faces) {
-        vertices.push_back(trace.vertices(f.vertices));
-        events.push_back({trace.face(f.face), vertices.back(), trace.frame_.direction(f.normal), trace.length(f.distance)});
-      }
-    }
-  };
-
   double length(double x) const { return x * frame_.unit; }
   int vertex(int v) { return number(v, numbers_.first_vertex, numbers_.next_vertex); }
   int face(int f) { return number(f, numbers_.first_face, numbers_.next_face); }
@@ -189,16 +180,26 @@ class WorldTrace {
     next = std::max(next, first + n + 1);
     return first + n;
   }
-  std::vector<int> vertices(std::span<const int> numbers) {
-    std::vector<int> result;
-    result.reserve(numbers.size());
-    for (const int v : numbers) result.push_back(vertex(v));
-    return result;
+  /// For the lists of one event: they lie one after the other, and none may move while the next is written.
+  void make_room(std::size_t numbers) { lists_.clear(), lists_.reserve(numbers); }
+  std::span<const int> vertices(std::span<const int> numbers) {
+    const std::size_t first = lists_.size();
+    for (const int v : numbers) lists_.push_back(vertex(v));
+    return std::span(lists_).subspan(first);
+  }
+  std::span<const FaceEvent<AnyVector, Viewed>> faces(std::span<const FaceEvent<V, Viewed>> faces) {
+    faces_.clear();
+    for (const auto& f : faces) faces_.push_back({face(f.face), vertices(f.vertices), frame_.direction(f.normal), length(f.distance)});
+    return faces_;
   }
 
   const WorkingFrame<D, S>& frame_;
   TraceNumbers& numbers_;
   TraceSink& sink_;
+  // Of the event at hand; kept for the next, so that events do not allocate.
+  std::vector<int> lists_;
+  std::vector<Edge> horizon_;
+  std::vector<FaceEvent<AnyVector, Viewed>> faces_;
 };
 
 }  // namespace gjkdbg
