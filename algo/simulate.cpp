@@ -204,6 +204,7 @@ class Simulation {
     supports_ += r.support_calls, iterations_ += r.iterations;
     const bool limited = r.status == word_of(GjkStatus::iteration_limit), touch = r.intersecting && r.normal && r.contacts;  // EPA's limit is called the same
     if (touch) keep_contacts(i, j, r, limited);
+    limited_ |= limited;
     if (limited && trace_) tell_limit(i, j, touch);
   }
 
@@ -296,7 +297,7 @@ class Simulation {
 
   Result result() const {
     Result r;
-    r.status = "completed";
+    r.status = limited_ ? "contact_unknown" : "completed";
     r.intersecting = !contacts_.empty();
     r.iterations = iterations_, r.support_calls = supports_;
     r.time = time_;
@@ -315,6 +316,7 @@ class Simulation {
   std::vector<std::vector<Shape>> parts_;
   std::map<std::pair<const Shape*, const Shape*>, std::vector<SimplexPoint>> simplices_;  ///< of Start::previous
   std::vector<Contact> contacts_;
+  bool limited_ = false;  ///< some search came to its limit
   std::vector<bool> resting_;  ///< on something, in this step
   TraceNumbers numbers_;
   double time_ = 0;

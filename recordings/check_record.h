@@ -89,6 +89,7 @@ class RecordCheck {
   AnyVector inside_;                          ///< MPR's inner point
   double cleared_ = 0;                        ///< how far the origin is from the boundary at least, by MPR's portals; -infinity before it is inside, NaN where rounding has a say in it
   AnyVector interior_, newest_w_;             ///< MPR's: towards its inner point, zero where that is next to the origin; the last vertex, empty before any
+  bool contact_unknown_ = false;              ///< a simulation has said so
   enum class Portal { none, found, found_last } portal_ = Portal::none;  ///< whether there is one, and nothing after it
   double plane_ = 0;                          ///< the farthest its supports have proven the cores apart
   double lower_ = 0, upper_ = 0;              ///< what the phase knows of the bodies' signed distance, infinite where nothing, NaN where the events do not say

@@ -340,11 +340,13 @@ struct SimulationCheck {
       c.find("momentum-lost", "The angular momentum of body " + std::to_string(i) + " went from " + text_of(AnyVector(was)) + " to " + text_of(AnyVector(is)) + " in the step to time " + text_of(time) + ", though nothing touched it.");
   }
 
+  bool ran_to_its_end() const { return c.recording.result.status == "completed" || c.recording.result.status == "contact_unknown"; }
+
   /// Where no method asks for more than it tells, all supports are steps.
   void counts() {
     const Settings& s = c.recording.settings;
     const auto supports = std::count_if(c.recording.events.begin(), c.recording.events.end(), [](const Event& e) { return std::holds_alternative<recorded::SupportQueried>(e); });
-    if (foreign(c.recording) || c.recording.result.status != "completed" || s.penetration != Penetration::epa || s.name == MethodName::mpr || s.name == MethodName::sat) return;
+    if (foreign(c.recording) || !ran_to_its_end() || s.penetration != Penetration::epa || s.name == MethodName::mpr || s.name == MethodName::sat) return;
     if (c.recording.result.support_calls != supports)
       c.find("inconsistent", "The result counts " + std::to_string(c.recording.result.support_calls) + " support calls, but " + std::to_string(supports) + " were made.", Finding::Severity::warning);
   }
@@ -353,7 +355,7 @@ struct SimulationCheck {
   void result(const recorded::State& last, int states, bool touched) {
     const Result& r = c.recording.result;
     c.step = c.recording.events.size() - 1;
-    if (r.status == "completed" && states != motion.steps + 1) c.find("wrong-time", std::to_string(states) + " states are recorded; " + std::to_string(motion.steps) + " steps make " + std::to_string(motion.steps + 1) + ".");
+    if (ran_to_its_end() && states != motion.steps + 1) c.find("wrong-time", std::to_string(states) + " states are recorded; " + std::to_string(motion.steps) + " steps make " + std::to_string(motion.steps + 1) + ".");
     if (r.time && std::abs(*r.time - last.time) > 1e-9 * (1 + last.time)) c.find("wrong-time", "The result is of time " + text_of(*r.time) + ", the last state of " + text_of(last.time) + ".");
     if (r.energy && std::abs(*r.energy - last.energy) > 1e-9 * std::abs(last.energy) + 1e-12) c.find("wrong-state", "The result's energy is " + text_of(*r.energy) + ", the last state's " + text_of(last.energy) + ".");
     if (r.intersecting != touched) c.find("wrong-answer", std::string("intersecting is ") + (r.intersecting ? "true" : "false") + ", but the last step had " + (touched ? "contacts." : "none."));

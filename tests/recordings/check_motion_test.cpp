@@ -265,6 +265,10 @@ TEST(CheckMotion, BouncesAtAnyLimitAreClean) {
     ASSERT_EQ(told(recording), "") << k;
     const auto unknown = [](const Event& e) { return std::holds_alternative<recorded::Warning>(e) && std::get<recorded::Warning>(e).code == "contact-unknown"; };
     const auto warning = std::find_if(recording.events.begin(), recording.events.end(), unknown);
+    EXPECT_EQ(recording.result.status, warning == recording.events.end() ? "completed" : "contact_unknown");
+    Recording lies = recording;
+    lies.result.status = warning == recording.events.end() ? "contact_unknown" : "completed";
+    EXPECT_NE(told(lies).find("inconsistent"), std::string::npos) << "the status does not fit";
     if (warning == recording.events.end()) continue;
     ++limited;
     Recording silent = recording;
