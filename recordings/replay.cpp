@@ -63,8 +63,7 @@ struct Apply {
   }
 
   void operator()(const recorded::GjkEnded& e) {
-    frame.iteration = e.iteration;
-    frame.gjk_status = e.status;
+    frame.iteration = e.iteration, frame.gjk_status = e.status;
     // A last support that was proof enough never joined the simplex.
     if (step > 0 && std::holds_alternative<recorded::SupportQueried>(recording.events[step - 1]) && !frame.simplex.empty()) frame.simplex.erase(frame.simplex.begin());
     bounds(e.lower_bound, e.upper_bound);
@@ -238,9 +237,10 @@ struct Apply {
 
   /// After a cut the last direction has done its part. The next one need not be -v: the boolean form has no v, and an accelerated one is led elsewhere.
   void next_direction(const AnyVector& closest) {
-    const auto* next = step + 1 < recording.events.size() ? std::get_if<recorded::SupportQueried>(&recording.events[step + 1]) : nullptr;
+    const Event* after = step + 1 < recording.events.size() ? &recording.events[step + 1] : nullptr;
     frame.direction.reset(), frame.answered = false;
-    if (next && next->phase == Phase::gjk) frame.direction = next->direction;
+    if (after && std::holds_alternative<recorded::GjkEnded>(*after)) return;  // touching, say: v is rounding, and nothing is asked along it
+    if (const auto* next = std::get_if<recorded::SupportQueried>(after); next && next->phase == Phase::gjk) frame.direction = next->direction;
     else if (closest.size() > 0 && !closest.isZero(0)) frame.direction = -closest;
   }
 
