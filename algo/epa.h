@@ -117,7 +117,8 @@ class Epa {
 
   /// A - B lies in a plane (or what spans less). Its support across that, to the nearer side, is the plane's distance from the origin, negative: more
   /// than rounding, and the bodies are apart by as much, however little GJK could tell. No farther than its simplex.
-  EpaResult<D, S> finish_flat(const Simplex<D, S>& simplex, const FlatDifference<V>& flat) {
+  EpaResult<D, S> finish_flat(Simplex<D, S> simplex, const FlatDifference<V>& flat) {
+    if (simplex.size() == D + 1) weigh_enclosing(simplex);
     best_height_ = flat.height, result_.normal = flat.normal;
     if (best_height_ < -floor_) {
       lower_ = std::min(best_height_, -(simplex.point_a() - simplex.point_b()).norm());

@@ -73,7 +73,7 @@ class EpaStart {
   /// A tetrahedron that plain arithmetic shows not to be flat: no edge short, no corner sharp, the last point well off the others' plane.
   bool plainly_spans(const Simplex<D, S>& simplex) const {
     if constexpr (D == 3) {
-      if (simplex.size != 4) return false;
+      if (simplex.size() != 4) return false;
       const V x = simplex[1].w - simplex[0].w, y = simplex[2].w - simplex[0].w, z = simplex[3].w - simplex[0].w;
       const V n = x.cross(y);
       const S xx = x.dot(x), yy = y.dot(y), nn = n.dot(n), off = n.dot(z), far = 64 * floor_;
@@ -141,7 +141,7 @@ class EpaStart {
   int next_point(const Simplex<D, S>& simplex, const std::array<int, D + 1>& chosen, int rank) {
     S best = 64 * floor_;
     int from = -1;
-    for (int i = 1; i < simplex.size; ++i)
+    for (int i = 1; i < simplex.size(); ++i)
       if (const S off = off_hull(simplex[i].w, chosen, rank); off > best) best = off, from = i;
     if (from >= 0) return polytope_.add_point(simplex[from]);
     best = floor_, flat_ = {};

@@ -8,11 +8,11 @@
 // Deviations: |v| must fall in every step; where it does not, the simplex is judged again in twice the precision and,
 // if that does not help, the loop ends as `stalled` with honest bounds. Bounds include the rounding floor.
 // Directions may carry Nesterov's momentum (Montaut et al., section IV): fewer steps where curvature is small; or be Newton's (algo/newton_direction.h).
-// The sub-algorithm is a policy: ClosestFeature<D, S> closest(const V* w, int size), or closest(const V* w, const int* place, int size) with
-// the vertices w[place[0]], w[place[1]], … and places for indices.
+// The sub-algorithm is a policy: ClosestFeature<D, S> closest(const V* w, int size). One that has a `Grown` (algo/grown_simplex.h) is asked that first.
 #pragma once
 
 #include <limits>
+#include <new>
 #include <span>
 #include <utility>
 
@@ -49,7 +49,9 @@ template <int D, class S>
 struct GjkResult {
   GjkStatus status = GjkStatus::converged;
   int iterations = 0;
-  Simplex<D, S> simplex;                   ///< the feature nearest the origin; with weights; when enclosed all D + 1 vertices, with the origin's weights
+  /// The feature nearest the origin, with weights; when enclosed all D + 1 vertices, with the origin's weights unless the signed distance was
+  /// asked for: whoever goes on from there has no use for them, but where rounding ends that (`weigh_enclosing`).
+  Simplex<D, S> simplex;
   Vector<D, S> v = Vector<D, S>::Zero();   ///< closest point of the cores' difference (zero when enclosed)
   S distance = 0;                          ///< |v|
   S lower_bound = -std::numeric_limits<S>::infinity();  ///< of the signed distance of the cores
@@ -72,49 +74,59 @@ class Gjk {
 
   void run() {
     trace_(GjkBegan<V, Viewed>{options_.direction});
-    if (options_.kept.empty()) add(options_.direction, options_.direction.norm());
+    if (options_.kept.empty()) begin(options_.direction, options_.direction.norm());
     else keep();
-    reduce();
-    if (!options_.kept.empty()) last_ = momentum_ = result_.v;
     while (!ended()) {
       ++result_.iterations;
-      V d = -result_.v;
       S length = result_.distance;
-      const bool led = options_.accelerated && lead(d, length);
-      const Point point = query(d, length);
+      const bool led = options_.accelerated && lead(towards_, length);
+      const Point& point = query(towards_, length);
       if (led) {
         if (options_.goal == GjkGoal::intersect && result_.lower_bound > difference_.radius()) return finish(GjkStatus::separated);
         if (brings_nothing(point)) {
-          accelerating_ = false, ++asked_in_vain_;
+          accelerating_ = false, ++asked_in_vain_, towards_ = -result_.v;
           continue;
         }
       } else if (proven(point)) {
         break;
       }
       if (options_.accelerated) last_ = point.w;
-      result_.simplex.add(point);
-      if (!reduce() && !reduce_again()) return finish(GjkStatus::stalled);
+      if (!reduce() && !reduce_again()) {
+        result_.simplex.places &= ~(1u << newest_);
+        return finish(GjkStatus::stalled);
+      }
     }
     finish(status_);
   }
 
  private:
+  template <class Sub>
+  static constexpr bool grows = requires { typename Sub::Grown; };
+
   /// Asks for the support along d and takes its plane for the lower bound: all x of A - B have d.x <= d.w, so the
-  /// signed distance is at least -d.w / |d|.
-  Point query(const V& d, S length) {
-    const Point point = difference_.support(d);
+  /// signed distance is at least -d.w / |d|. The point lies in a place that is free, and stays so unless the simplex grows by it.
+  const Point& query(const V& d, S length) {
+    newest_ = result_.simplex.free_place();
+    const Point& point = *new (&result_.simplex.points[newest_]) Point(difference_.support(d));  // made where it stays
     if constexpr (traced<Trace>)
       trace_(SupportQueried<V, Viewed>{result_.iterations, Phase::gjk, d, point.vertex, point.a, point.b, point.w});
-    plane_ = -d.dot(point.w) / length;
+    plane_ = -along(d, point.w) / length;
     result_.lower_bound = std::max(result_.lower_bound, plane_ - floor_);
     if (by_newton()) newton_.take(d, length, point);
     return point;
   }
 
-  void add(const V& d, S length) {
-    const Point point = query(d, length);
+  /// d . w, d as it is written (see advance_to).
+  [[gnu::always_inline]] static S along(const V& d, const V& w) {
+    S sum = d[0] * w[0];
+    for (int i = 1; i < D; ++i) sum += d[i] * w[i];
+    return sum;
+  }
+
+  [[gnu::noinline]] void begin(const V& d, S length) {
+    const Point& point = query(d, length);
     if (options_.accelerated) last_ = point.w, momentum_ = -d / length * point.w.norm();
-    result_.simplex.add(point);
+    reduce();
   }
 
   void keep() {
@@ -122,6 +134,8 @@ class Gjk {
       trace_(VertexKept<V, Viewed>{point.vertex, point.a, point.b, point.w});
       result_.simplex.add(point);
     }
+    accept(of_list([](const V* w, int size) { return SubAlgorithm::closest(w, size); }));
+    if (options_.accelerated) last_ = momentum_ = result_.v;
   }
 
   /// Montaut et al. 2024, algorithm 3: with m = (k + 1) / (k + 3), y = m v + (1 - m) s (s the last support), the direction moves to
@@ -174,49 +188,79 @@ class Gjk {
     return !(result_.v.dot(result_.v - point.w) > options_.tolerance * v_squared_) || result_.simplex.holds(point.w);
   }
 
-  /// Cuts the simplex down to the feature nearest the origin; false when that is no nearer than before (NaN included).
-  bool reduce() {
-    const auto& simplex = result_.simplex;
-    if constexpr (requires { SubAlgorithm::closest(simplex.w.data(), simplex.place.data(), simplex.size); })
-      return accept(SubAlgorithm::closest(simplex.w.data(), simplex.place.data(), simplex.size));
-    else
-      return accept(of_list([](const V* w, int size) { return SubAlgorithm::closest(w, size); }));
+  /// Takes the newest point and cuts the simplex down to the feature nearest the origin; false when that is no nearer than before (NaN included).
+  [[gnu::always_inline]] bool reduce() {
+    if constexpr (grows<SubAlgorithm>) {
+      const auto nearest = SubAlgorithm::Grown::closest(result_.simplex.points, result_.simplex.places, newest_);
+      if (nearest.places != 0) [[likely]] return accept(nearest);
+    }
+    result_.simplex.places |= 1u << newest_;
+    return accept(of_list([](const V* w, int size) { return SubAlgorithm::closest(w, size); }));
   }
 
-  /// For a sub-algorithm that wants the vertices one after the other.
   template <class Closest>
-  Feature of_list(Closest closest) const {
+  [[gnu::noinline]] Feature of_list(Closest closest) const {
     const auto& simplex = result_.simplex;
     std::array<V, D + 1> w;
-    for (int i = 0; i < simplex.size; ++i) w[i] = simplex[i].w;
-    Feature feature = closest(w.data(), simplex.size);
-    for (int i = 0; i < feature.count; ++i) feature.index[i] = simplex.place[feature.index[i]];
-    return feature;
+    const int size = simplex.size();
+    for (int i = 0; i < size; ++i) w[i] = simplex[i].w;
+    return closest(w.data(), size);
   }
 
   /// The second opinion, in twice the precision.
   bool reduce_again() {
+    result_.simplex.places |= 1u << newest_;
     return accept(of_list([](const V* w, int size) { return WideClosestPoint<D, S>::of_boundary(w, size); }));
+  }
+
+  bool accept(const Feature& feature) {
+    if (feature.enclosed && result_.lower_bound > 0) return false;  // a support plane has shown the origin outside: rounding speaks
+    if (!feature.enclosed && !falls_to(feature.v, feature.v_squared)) return false;
+    if constexpr (traced<Trace>) before_ = vertex_numbers();
+    result_.simplex.reduce_to(feature);
+    weighed_ = true;
+    enclosed_ = feature.enclosed;
+    advance_to(feature.v[0], D > 1 ? feature.v[1 % D] : 0, D > 2 ? feature.v[2 % D] : 0, feature.v_squared);
+    return true;
+  }
+  /// Weights are found when somebody wants them.
+  template <class Nearest>
+  [[gnu::always_inline]] bool accept(const Nearest& nearest) {
+    if (nearest.encloses() ? result_.lower_bound > 0 : !(nearest.v_squared < v_squared_) && !falls_to(nearest.v.vector(), nearest.v_squared)) [[unlikely]]
+      return false;
+    enclosed_ = nearest.encloses();
+    if constexpr (traced<Trace>) result_.simplex.places |= 1u << newest_, before_ = vertex_numbers();
+    result_.simplex.places = nearest.places;
+    grown_by_ = newest_, weighed_ = false;
+    advance_to(nearest.v.x, nearest.v.y, nearest.v.z, nearest.v_squared);
+    return true;
   }
 
   /// |v| must fall. Where the plane still turns but |v| falls by less than it rounds (a nearly flat part of A - B met at
   /// a grazing angle), a few steps on the spot are allowed, not twice to the same. Newton's directions bring |v| to its least before that, where |v| is known to a floor only.
-  bool accept(const Feature& feature) {
-    if (feature.enclosed && result_.lower_bound > 0) return false;  // a support plane has shown the origin outside: rounding speaks
-    if (!feature.enclosed && !(feature.v_squared < v_squared_)) {
-      const S rounding = by_newton() ? 2 * result_.distance * floor_ : 8 * std::numeric_limits<S>::epsilon() * v_squared_;
-      if (feature.v == result_.v || feature.v == stepped_to_ || !(feature.v_squared <= v_squared_ + rounding) || ++steps_on_the_spot_ > 8) return false;
-      stepped_to_ = feature.v;
-    }
-    if constexpr (traced<Trace>) before_ = vertex_numbers();
-    result_.simplex.reduce_to(feature);
-    result_.v = feature.v;
-    v_squared_ = feature.v_squared;
-    result_.distance = std::sqrt(v_squared_);
-    result_.upper_bound = result_.distance + floor_;
-    enclosed_ = feature.enclosed;
-    if constexpr (traced<Trace>) trace_reduction();
+  [[gnu::noinline]] bool falls_to(const V& v, S v_squared) {
+    if (v_squared < v_squared_) return true;
+    const S rounding = by_newton() ? 2 * result_.distance * floor_ : 8 * std::numeric_limits<S>::epsilon() * v_squared_;
+    if (v == result_.v || (steps_on_the_spot_ > 0 && v == stepped_to_) || !(v_squared <= v_squared_ + rounding) || ++steps_on_the_spot_ > 8) return false;
+    stepped_to_ = v;
     return true;
+  }
+
+  /// Number by number: two at once are waited for where one of them was written just before, and -v is what everything waits for.
+  [[gnu::always_inline]] void advance_to(S x, S y, S z, S v_squared) {
+    towards_[0] = -x, result_.v[0] = x;
+    if constexpr (D > 1) towards_[1] = -y, result_.v[1] = y;
+    if constexpr (D > 2) towards_[2] = -z, result_.v[2] = z;
+    v_squared_ = v_squared;
+    result_.distance = std::sqrt(v_squared);
+    result_.upper_bound = result_.distance + floor_;
+    if constexpr (traced<Trace>) trace_reduction();
+  }
+
+  void weigh() {
+    if constexpr (grows<SubAlgorithm>)
+      if (!weighed_) SubAlgorithm::Grown::weigh(result_.simplex.points, result_.simplex.places, grown_by_, result_.simplex.weights);
+    weighed_ = true;
   }
 
   /// Whether the simplex alone settles the matter.
@@ -274,13 +318,14 @@ class Gjk {
   }
 
   void finish(GjkStatus status) {
+    if (!enclosed_ || options_.goal != GjkGoal::signed_distance) weigh();
     result_.status = status;
     const double radius = static_cast<double>(difference_.radius());
     trace_(GjkEnded<V, Viewed>{result_.iterations, status, result_.lower_bound - radius, result_.upper_bound - radius});
   }
 
   struct Numbers {
-    std::array<int, D + 1> vertex{};
+    std::array<int, D + 1> vertex;
     int size = 0;
     std::span<const int> view() const { return {vertex.data(), static_cast<std::size_t>(size)}; }
   };
@@ -289,20 +334,21 @@ class Gjk {
   Numbers vertex_numbers() {
     const auto& simplex = result_.simplex;
     Numbers numbers;
-    numbers.size = simplex.size;
+    numbers.size = simplex.size();
     const auto newer = [&](int i, int j) { return simplex[i].vertex > simplex[j].vertex; };
-    for (int i = 0; i < simplex.size; ++i) {
+    for (int i = 0; i < numbers.size; ++i) {
       order_[i] = i;
       for (int k = i; k > 0 && newer(order_[k], order_[k - 1]); --k) std::swap(order_[k], order_[k - 1]);
     }
-    for (int i = 0; i < simplex.size; ++i) numbers.vertex[i] = simplex[order_[i]].vertex;
+    for (int i = 0; i < numbers.size; ++i) numbers.vertex[i] = simplex[order_[i]].vertex;
     return numbers;
   }
 
   void trace_reduction() {
+    weigh();
     const Numbers region = vertex_numbers();
     std::array<double, D + 1> weights{};
-    for (int i = 0; i < region.size; ++i) weights[i] = static_cast<double>(result_.simplex.weights[order_[i]]);
+    for (int i = 0; i < region.size; ++i) weights[i] = static_cast<double>(result_.simplex.weight(order_[i]));
     const double radius = static_cast<double>(difference_.radius());
     trace_(SimplexReduced<V, Viewed>{result_.iterations, before_.view(), region.view(),
                                      std::span<const double>(weights.data(), region.size), result_.v,
@@ -316,18 +362,22 @@ class Gjk {
   GjkResult<D, S>& result_;
   S v_squared_ = std::numeric_limits<S>::infinity();
   S last_squared_ = std::numeric_limits<S>::max();
+  V towards_;              ///< the origin, from v
   S plane_ = 0;
   bool enclosed_ = false;
+  int newest_ = 0;                            ///< the place of the last point asked for
+  int grown_by_ = 0;                          ///< that of the newest vertex in the simplex
+  bool weighed_ = true;                       ///< the simplex has its weights
   int steps_on_the_spot_ = 0;
-  V stepped_to_ = V::Zero();                  ///< by the last of these; none leads to the origin
+  V stepped_to_;                              ///< by the last of these
   bool accelerating_ = options_.accelerated;  ///< the momentum still helps
   int asked_in_vain_ = 0;                     ///< supports of directions that lead, which brought nothing: on a face of a body the model of two pieces never comes right
   bool newton_led_ = false;                   ///< the last direction was Newton's
   S gap_ = 0;                                 ///< of the bounds, before it
   NewtonDirection<Difference> newton_{difference_};
-  V momentum_ = V::Zero(), last_ = V::Zero();
+  V momentum_, last_;  ///< where accelerated
   GjkStatus status_ = GjkStatus::converged;
-  std::array<int, D + 1> order_{};
+  std::array<int, D + 1> order_;
   Numbers before_;
 };
 

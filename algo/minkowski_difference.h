@@ -19,6 +19,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "algo/vertices_pair.h"
 #include "shapes/convex.h"
 #include "shapes/double_double.h"
 #include "shapes/pose.h"
@@ -98,12 +99,19 @@ class MinkowskiDifference {
   /// a call returns is written number by number and read two at once, and a processor waits until such a write has reached the cache.
   [[gnu::flatten]] Point support(const V& d) {
     Point point;
+    point.vertex = numbers_++;
+    ++calls_;
+#ifdef GJKDBG_AVX2
+    if constexpr (D == 3 && sizeof(S) == 8)
+      if (of_vertices_) {
+        of_vertices_.support(pose_, d, point);
+        return point;
+      }
+#endif
     point.a = a_.support(d);
     point.b.noalias() = pose_.rotation * b_.support(-(pose_.inverse * d));
     point.b += pose_.position;
     point.w = point.a - point.b;
-    point.vertex = numbers_++;
-    ++calls_;
     return point;
   }
 
@@ -168,7 +176,7 @@ class MinkowskiDifference {
   /// Takes a function, so that the pose is written where it stays: copying what was just written number by number is what a processor waits for.
   template <class Pose>
     requires std::is_invocable_v<Pose>
-  MinkowskiDifference(const A& a, const B& b, const Pose& pose) : a_(a), b_(b), pose_(pose()) {
+  MinkowskiDifference(const A& a, const B& b, const Pose& pose) : a_(a), b_(b), of_vertices_(a, b), pose_(pose()) {
     S squared = 0;
     for (int i = 0; i < D; ++i) squared += pose_.position[i] * pose_.position[i];
     rounding_floor_ = rounding_floor_of(static_cast<S>(a.extent() + b.extent()), squared);
@@ -176,6 +184,7 @@ class MinkowskiDifference {
 
   const A& a_;
   const B& b_;
+  const VerticesPair of_vertices_;
   const RelativePose<D, S> pose_;
   S rounding_floor_;
   int calls_ = 0, numbers_ = 0;

@@ -86,12 +86,12 @@ RayCastResult<Difference::D, typename Difference::S> ray_cast(Difference& differ
     // A vertex that the simplex has, or no progress without a clip: what is left is rounding.
     if (simplex.holds(p.w) && !clipped) return end(beyond > reach * distance ? CastStatus::iteration_limit : CastStatus::hit);
     if (!simplex.holds(p.w)) {
-      if (simplex.size == D + 1) return end(CastStatus::hit);  // the point is inside the simplex
+      if (simplex.size() == D + 1) return end(CastStatus::hit);  // the point is inside the simplex
       simplex.add(p);
     }
     std::array<V, D + 1> y;
-    for (int i = 0; i < simplex.size; ++i) y[simplex.place[i]] = simplex[i].w - x;
-    const auto feature = SignedVolumes<D, S>::closest(y.data(), simplex.place.data(), simplex.size);
+    for (int i = 0; i < simplex.size(); ++i) y[i] = simplex[i].w - x;
+    const auto feature = SignedVolumes<D, S>::closest(y.data(), simplex.size());
     simplex.reduce_to(feature);
     v = -feature.v;
     if (feature.enclosed) v.setZero();

@@ -24,29 +24,33 @@
 
 #include "algo/closest_point_wide.h"
 #include "algo/enclosing_simplex.h"
+#include "algo/grown_simplex.h"
 #include "algo/orientation.h"
 #include "algo/simplex.h"
 #include "algo/voronoi.h"
 
 namespace gjkdbg {
 
+/// What a sub-algorithm of GJK says of a simplex that has just grown by a vertex.
 template <int D, class S>
-struct SignedVolumes {
+struct ForGrown {};
+template <class S>
+struct ForGrown<3, S> {
+  using Grown = GrownSimplex<S>;
+};
+
+template <int D, class S>
+struct SignedVolumes : ForGrown<D, S> {
   using V = Vector<D, S>;
   using Feature = ClosestFeature<D, S>;
 
-  /// `size` vertices, 1 <= size <= D + 1: w[0], w[1], …
+  /// `size` vertices, 1 <= size <= D + 1.
   static Feature closest(const V* w, int size) {
-    constexpr std::array<int, 4> place{0, 1, 2, 3};
-    return closest(w, place.data(), size);
-  }
-  /// w[place[0]], w[place[1]], … of D + 1 places; the feature's indices are places.
-  static Feature closest(const V* w, const int* place, int size) {
     Feature f;
-    if (size == 1) vertex(w, place[0], f);
+    if (size == 1) vertex(w, 0, f);
     else if (size == D + 1) full(w, f);
-    else if (size == 2) segment(w, place[0], place[1], f);
-    else if constexpr (D == 3) triangle(w, place[0], place[1], place[2], f);
+    else if (size == 2) segment(w, 0, 1, f);
+    else if constexpr (D == 3) triangle(w, 0, 1, 2, f);
     return f;
   }
 
@@ -200,5 +204,15 @@ struct SignedVolumes {
     for (int k = 0; k < beyond && best.count < 3; ++k) triangle(w, (faces[k] + 1) % 4, (faces[k] + 2) % 4, (faces[k] + 3) % 4, best);
   }
 };
+
+/// The origin's weights in a simplex around it.
+template <int D, class S>
+void weigh_enclosing(Simplex<D, S>& simplex) {
+  std::array<Vector<D, S>, D + 1> w;
+  for (int i = 0; i <= D; ++i) w[i] = simplex.points[i].w;
+  simplex.weights.fill(0);
+  const auto feature = SignedVolumes<D, S>::closest(w.data(), D + 1);
+  for (int i = 0; i < feature.count; ++i) simplex.weights[feature.index[i]] = feature.weight[i];
+}
 
 }  // namespace gjkdbg

@@ -22,36 +22,44 @@ struct ClosestFeature {
   bool enclosed = false;
 };
 
-/// Its points stay where they were put; what changes is the list of places.
+/// Its points stay where they were put, by place; which of the places are taken are the bits of one number, so that the loop's next step need not wait for a list.
 template <int D, class S>
 struct Simplex {
   using Point = SupportPoint<D, S>;
-  int size = 0;
-  std::array<int, D + 1> place;         ///< of the first `size` points
-  std::array<S, D + 1> weights;         ///< of the same
+  unsigned places = 0;                  ///< a bit for each that is taken
+  std::array<S, D + 1> weights;         ///< by place
   std::array<Point, D + 1> points;      ///< by place
-  std::array<Vector<D, S>, D + 1> w;    ///< by place: points[…].w, side by side
 
-  const Point& operator[](int i) const { return points[place[i]]; }
+  int size() const { return std::popcount(places); }
+  /// The place of the i-th vertex.
+  int place(int i) const {
+    unsigned left = places;
+    for (; i > 0; --i) left &= left - 1;
+    return std::countr_zero(left);
+  }
+  const Point& operator[](int i) const { return points[place(i)]; }
+  S weight(int i) const { return weights[place(i)]; }
 
+  int free_place() const { return std::countr_one(places); }
   void add(const Point& point) {
-    unsigned taken = 0;
-    for (int i = 0; i < size; ++i) taken |= 1u << place[i];
-    const int free = std::countr_one(taken);
-    points[free] = point, w[free] = point.w;
-    place[size] = free, weights[size++] = 0;
+    const int free = free_place();
+    points[free] = point, weights[free] = 0, places |= 1u << free;
   }
 
   bool holds(const Vector<D, S>& x) const {
-    for (int i = 0; i < size; ++i)
-      if (w[place[i]] == x) return true;
-    return false;
+    bool held = false;
+    for (int i = 0; i <= D; ++i) held |= (places >> i & 1) != 0 && points[i].w == x;
+    return held;
   }
 
-  /// Keeps the vertices of a feature, whose indices are places, in their order and with its weights.
+  /// Keeps the vertices of a feature, whose indices count these, with its weights.
   void reduce_to(const ClosestFeature<D, S>& feature) {
-    for (int i = 0; i < feature.count; ++i) place[i] = feature.index[i], weights[i] = feature.weight[i];
-    size = feature.count;
+    unsigned kept = 0;
+    for (int i = 0; i < feature.count; ++i) {
+      const int at = place(feature.index[i]);
+      kept |= 1u << at, weights[at] = feature.weight[i];
+    }
+    places = kept;
   }
 
   Vector<D, S> point_a() const { return weighted(&Point::a); }  ///< sum weight_i a_i
@@ -59,8 +67,8 @@ struct Simplex {
 
  private:
   Vector<D, S> weighted(Vector<D, S> Point::*member) const {
-    Vector<D, S> sum = weights[0] * ((*this)[0].*member);
-    for (int i = 1; i < size; ++i) sum += weights[i] * ((*this)[i].*member);
+    Vector<D, S> sum = weight(0) * ((*this)[0].*member);
+    for (int i = 1; i < size(); ++i) sum += weight(i) * ((*this)[i].*member);
     return sum;
   }
 };

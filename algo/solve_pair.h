@@ -106,8 +106,8 @@ class PairSolver {
   void keep_simplex() {
     const WarmStart<D, S> before = *warm_;
     const Simplex<D, S>& simplex = gjk_.simplex;
-    warm_->size = simplex.size;
-    for (int i = 0; i < simplex.size; ++i) {
+    warm_->size = simplex.size();
+    for (int i = 0; i < warm_->size; ++i) {
       const SupportPoint<D, S>& p = simplex[i];
       const bool old = p.vertex < before.size;
       warm_->a[i] = old ? before.a[p.vertex] : p.a, warm_->b[i] = old ? before.b[p.vertex] : difference_.from_b(p.b);
@@ -161,12 +161,14 @@ class PairSolver {
     result_->iterations += found.iterations;
     set_bounds(-found.upper_bound, -found.lower_bound);
     const bool flat = found.face < 0;
+    if (flat && gjk_.status == GjkStatus::enclosed) weigh_enclosing(gjk_.simplex);
     witnesses(flat ? gjk_.simplex.point_a() : found.point_a, flat ? gjk_.simplex.point_b() : found.point_b, found.normal, -found.depth);
   }
 
   /// MPR has a plane between bodies that GJK could not tell apart: GJK's simplex has the nearest points it knew.
   void apart_after_all(const MprResult<D, S>& found) {
     const S cores = difference_.radius() - found.depth, floor = difference_.rounding_floor();
+    if (gjk_.status == GjkStatus::enclosed) weigh_enclosing(gjk_.simplex);
     set_bounds(std::max(gjk_.lower_bound, cores - floor), std::max(gjk_.upper_bound, cores + floor));
     witnesses(gjk_.simplex.point_a(), gjk_.simplex.point_b(), found.normal, cores);
   }
@@ -328,6 +330,7 @@ class PairSolver {
     GjkResult<D, S> nearest;
     gjk<SignedVolumes<D, S>>(apart, options, silent, nearest);
     more_calls_ = apart.support_calls();
+    if (nearest.status == GjkStatus::enclosed) weigh_enclosing(nearest.simplex);
     return nearest;
   }
 

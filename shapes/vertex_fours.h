@@ -33,6 +33,8 @@ class VertexFours {
     ++size_;
   }
   std::size_t size() const { return size_; }
+  /// The fours, one after the other: four x, four y, four z, and so on.
+  const S* data() const { return fours_[0][0].data(); }
   V operator[](std::size_t i) const {
     V v;
     for (int c = 0; c < D; ++c) v[c] = fours_[i / 4][static_cast<std::size_t>(c)][i % 4];

@@ -260,7 +260,7 @@ TEST(Trace, EpaStallsWherePrecisionEnds) {
     Simplex<2, double> simplex;
     for (const auto& w : difference.corners) {
       SupportPoint<2, double> p;
-      p.w = p.a = w, p.b.setZero(), p.vertex = simplex.size;
+      p.w = p.a = w, p.b.setZero(), p.vertex = simplex.size();
       simplex.add(p);
     }
     EpaOptions<double> options;

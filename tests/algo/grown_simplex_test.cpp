@@ -1,0 +1,156 @@
+// What algo/grown_simplex.h tells of simplices that have grown, against twice the precision; and algo/vertices_pair.h against one body after the other.
+#include "algo/grown_simplex.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "algo/minkowski_difference.h"
+#include "algo/signed_volumes.h"
+
+namespace gjkdbg {
+namespace {
+
+using GrownPoints = std::array<SupportPoint<3, double>, 4>;
+
+class RandomNumbers {
+ public:
+  explicit RandomNumbers(unsigned seed) : engine_(seed) {}
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  Eigen::Vector3d vector() { return {uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)}; }
+
+ private:
+  std::mt19937 engine_;
+};
+
+/// A feature nearest the origin of one to three vertices, at places of its own, thin by `width`, and a vertex nearer along v.
+struct Grown {
+  GrownPoints points;
+  unsigned old = 0;
+  int newest = 0;
+
+  Grown(RandomNumbers& random, int size, double width) {
+    const Eigen::Vector3d out = Eigen::Vector3d(random.vector()).normalized(), along = Eigen::Vector3d(out.cross(random.vector())).normalized(), across = out.cross(along);
+    const double distance = std::pow(10.0, random.uniform(-6, 0));
+    const int first = static_cast<int>(random.uniform(0, 4));
+    // Around the foot of the origin, so that all of them belong to the feature.
+    const double turned = random.uniform(0, 6);
+    for (int i = 0; i < size; ++i) {
+      const double angle = turned + 2 * EIGEN_PI * i / size, reach = size == 1 ? 0 : random.uniform(0.1, 1);
+      put((first + i) % 4, out * distance + along * (reach * std::cos(angle)) + across * (size == 2 ? 0 : width * reach * std::sin(angle)));
+      old |= 1u << (first + i) % 4;
+    }
+    if (size == 2) {  // through the foot
+      const int at = (first + 1) % 4;
+      put(at, out * distance - along * random.uniform(0.1, 1)), put(first, out * distance + along * random.uniform(0.1, 1));
+    }
+    newest = (first + size) % 4;
+    put(newest, out * (distance - std::pow(10.0, random.uniform(-5, 0.3))) + along * random.uniform(-1, 1) + across * (width * random.uniform(-1, 1)));
+  }
+  void put(int place, const Eigen::Vector3d& w) { points[static_cast<std::size_t>(place)] = {w, w, Eigen::Vector3d::Zero(), place}; }
+};
+
+TEST(GrownSimplex, TellsThePointNearestTheOrigin) {
+  RandomNumbers random(5);
+  int told = 0, asked = 0, enclosing = 0;
+  double worst = 0, worst_before = 0;
+  for (int k = 0; k < 60000; ++k) {
+    const int size = 1 + k % 3;
+    const double width = k % 2 == 0 ? 1 : std::pow(10.0, random.uniform(-9, 0));
+    const Grown grown(random, size, width);
+    const auto found = GrownSimplex<double>::closest(grown.points, grown.old, grown.newest);
+    ++asked;
+    if (found.places == 0) continue;
+    ++told;
+    std::array<Eigen::Vector3d, 4> w;
+    int count = 0;
+    double far = 0;
+    for (int i = 0; i < 4; ++i)
+      if ((grown.old >> i & 1) != 0 || i == grown.newest) w[static_cast<std::size_t>(count++)] = grown.points[static_cast<std::size_t>(i)].w, far = std::max(far, w[static_cast<std::size_t>(count - 1)].norm());
+    const auto signed_volumes = SignedVolumes<3, double>::closest(w.data(), count);
+    ASSERT_EQ(found.encloses(), signed_volumes.enclosed) << "simplex " << k;
+    enclosing += found.encloses();
+    const Eigen::Vector3d v = found.v.vector();
+    if (!found.encloses()) {
+      const auto wide = WideClosestPoint<3, double>::of_boundary(w.data(), count);
+      EXPECT_NEAR(v.norm(), std::sqrt(wide.v_squared), 1e-12 * far) << "simplex " << k;  // a normal's last digits, by the sine of 1e-3 from which a triangle is thin
+      worst = std::max(worst, std::abs(v.norm() - std::sqrt(wide.v_squared)) / far), worst_before = std::max(worst_before, std::abs(std::sqrt(signed_volumes.v_squared) - std::sqrt(wide.v_squared)) / far);
+      for (int i = 0; i < count; ++i) EXPECT_GE(v.dot(w[static_cast<std::size_t>(i)]), found.v_squared - 1e-12 * v.norm() * far) << "simplex " << k;
+    }
+    ASSERT_NE(found.places >> grown.newest & 1, 0u);
+    std::array<double, 4> weights;
+    GrownSimplex<double>::weigh(grown.points, found.places, grown.newest, weights);
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double all = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      if ((found.places >> i & 1) != 0) {
+        EXPECT_GE(weights[i], 0) << "simplex " << k;
+        sum += weights[i] * grown.points[i].w, all += weights[i];
+      }
+    EXPECT_NEAR(all, 1, 1e-14);
+    EXPECT_LE((sum - v).norm(), (found.encloses() ? 1e-7 : 1e-9) * far) << "simplex " << k << ", " << size << " vertices, width " << width;
+    if (HasFailure()) break;
+  }
+  EXPECT_GT(told, asked * 9 / 10);
+  EXPECT_GT(enclosing, asked / 100);
+  std::printf("told of %d of %d simplices, %d around the origin; off by %.1g of the size, SignedVolumes by %.1g\n", told, asked, enclosing, worst, worst_before);
+}
+
+/// A newest vertex that is NaN is nowhere nearer.
+TEST(GrownSimplex, TellsNothingOfWhatIsNoNumber) {
+  RandomNumbers random(6);
+  for (int k = 0; k < 300; ++k) {
+    Grown grown(random, 1 + k % 3, 1);
+    grown.points[static_cast<std::size_t>(grown.newest)].w[k % 3] = std::numeric_limits<double>::quiet_NaN();
+    const auto found = GrownSimplex<double>::closest(grown.points, grown.old, grown.newest);
+    EXPECT_FALSE(found.places != 0 && found.v_squared < std::numeric_limits<double>::infinity()) << k;
+  }
+}
+
+#ifdef GJKDBG_AVX2
+/// A body of which the difference does not know what it is made of.
+struct AnyBody {
+  const Convex<3, double>& body;
+  Eigen::Vector3d support(const Eigen::Vector3d& d) const { return body.support(d); }
+  const Eigen::Vector3d& reference() const { return body.reference(); }
+  double extent() const { return body.extent(); }
+};
+
+/// To the bit, and of vertices that are as high as one another the same.
+TEST(VerticesPair, SaysWhatOneBodyAfterTheOtherSays) {
+  RandomNumbers random(7);
+  int compared = 0;
+  for (int k = 0; k < 400; ++k) {
+    const auto body = [&](int n) {
+      PointSet hull;
+      for (int i = 0; i < n; ++i) {
+        Eigen::Vector3d p = Eigen::Vector3d(random.vector()).normalized();
+        if (k % 4 == 0) p = Eigen::Vector3d((p * 2).array().round()), p += Eigen::Vector3d(i % 2, i / 2 % 2, i / 4 % 2);  // many as high as one another along an axis
+        hull.points.push_back(AnyVector(p));
+      }
+      return Convex<3, double>(Shape{hull, 0});
+    };
+    const Convex<3, double> a = body(9 + k % 40), b = body(9 + k / 3 % 40);
+    Pose pose_a = identity_pose(3), pose_b = identity_pose(3);
+    pose_b.position = AnyVector(random.vector() * 3);
+    if (k % 4 != 0) pose_b.matrix = AnyMatrix(Eigen::AngleAxisd(random.uniform(0, 3), Eigen::Vector3d(random.vector()).normalized()).toRotationMatrix());
+    MinkowskiDifference<3, double, Convex<3, double>> together(a, b, pose_a, pose_b, 1);
+    const AnyBody any_a{a}, any_b{b};
+    MinkowskiDifference<3, double, AnyBody> one_by_one(any_a, any_b, pose_a, pose_b, 1);
+    if (!VerticesPair(a, b)) continue;
+    for (int i = 0; i < 200; ++i) {
+      const Eigen::Vector3d d = i < 26 && k % 4 == 0 ? Eigen::Vector3d((i + 1) % 3 - 1, (i + 1) / 3 % 3 - 1, (i + 1) / 9 - 1) : random.vector();
+      const auto found = together.support(d), expected = one_by_one.support(d);
+      ASSERT_EQ(found.a, expected.a) << "pair " << k << ", direction " << i;
+      ASSERT_EQ(found.b, expected.b) << "pair " << k << ", direction " << i;
+      ASSERT_EQ(found.w, expected.w) << "pair " << k << ", direction " << i;
+      ASSERT_EQ(found.vertex, expected.vertex);
+      ++compared;
+    }
+  }
+  EXPECT_TRUE(compared > 1000 || !__builtin_cpu_supports("avx2"));
+}
+#endif
+
+}  // namespace
+}  // namespace gjkdbg
