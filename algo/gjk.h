@@ -126,7 +126,7 @@ class Gjk {
   [[gnu::noinline]] void begin(const V& d, S length) {
     const Point& point = query(d, length);
     if (options_.accelerated) last_ = point.w, momentum_ = -d / length * point.w.norm();
-    reduce();
+    if (!reduce()) result_.simplex.places = 1u << newest_, result_.simplex.weights[newest_] = 1;  // no number: a simplex has a vertex all the same
   }
 
   void keep() {

@@ -33,7 +33,8 @@ class VerticesPair {
 
 #ifdef GJKDBG_AVX2
   /// What MinkowskiDifference::support says, number by number; of vertices as high as one another the one VertexFours::highest takes. All but the point's number.
-  void support(const RelativePose<3, double>& pose, const Vector<3, double>& d, SupportPoint<3, double>& point) const;
+  /// Not inlined: a caller that is to be flattened (MinkowskiDifference::support) is no code for AVX2.
+  [[gnu::noinline]] void support(const RelativePose<3, double>& pose, const Vector<3, double>& d, SupportPoint<3, double>& point) const;
 #endif
 
  private:
