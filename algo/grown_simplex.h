@@ -47,9 +47,8 @@ class GrownSimplex {
     bool encloses() const { return places == 0b1111; }  ///< the origin is inside, and v zero
   };
 
-  /// The old vertices' places, at most three, and the newest one's.
-  [[gnu::always_inline]] static Nearest closest(const Points& points, unsigned old, int newest) {
-    const T a = T::of(points[newest].w);
+  /// The old vertices' places, at most three, and the newest one's, whose w is a.
+  [[gnu::always_inline]] static Nearest closest(const Points& points, unsigned old, int newest, const T& a) {
     if (old == 0) return told(a, 1u << newest);
     const Edge i(points, a, newest, std::countr_zero(old));
     if (!(old &= old - 1)) return along(i);
@@ -126,7 +125,7 @@ class GrownSimplex {
   /// The weights are worth less than n: v must be where they say, too, or it is no point of the triangle.
   [[gnu::noinline]] static Nearest across_thin(const Edge& i, const Edge& j, const T& n) {
     const Nearest found = in_triangle(i, j, n);
-    if (std::popcount(found.places) == 3) {
+    if (count_of(found.places) == 3) {
       const T off = i.a + i.e * (-n.dot(j.c) / n.dot(n)) + j.e * (n.dot(i.c) / n.dot(n)) - found.v;
       constexpr S rounding = 16 * std::numeric_limits<S>::epsilon();
       if (!(off.dot(off) <= rounding * rounding * i.a.dot(i.a))) return {};
@@ -152,7 +151,7 @@ class GrownSimplex {
     const auto ends_with = [&](const Nearest& found) __attribute__((always_inline)) {
       known &= found.places != 0;
       if (best.places == 0 || found.v_squared < best.v_squared) best = found;
-      return std::popcount(found.places) == 3;  // inside a face that the origin lies beyond: no other is nearer
+      return count_of(found.places) == 3;  // inside a face that the origin lies beyond: no other is nearer
     };
     if (by_ij && ends_with(across(i, j, ij))) return best;
     if (by_jk && ends_with(across(j, k, jk))) return best;

@@ -22,6 +22,9 @@ struct ClosestFeature {
   bool enclosed = false;
 };
 
+/// How many of the four lowest bits are set, the others not: many a processor has an instruction for it, but not all that this is built for.
+constexpr int count_of(unsigned places) { return static_cast<int>(0x4332'3221'3221'2110U >> 4 * places & 7); }
+
 /// Its points stay where they were put, by place; which of the places are taken are the bits of one number, so that the loop's next step need not wait for a list.
 template <int D, class S>
 struct Simplex {
@@ -30,7 +33,7 @@ struct Simplex {
   std::array<S, D + 1> weights;         ///< by place
   std::array<Point, D + 1> points;      ///< by place
 
-  int size() const { return std::popcount(places); }
+  int size() const { return count_of(places); }
   /// The place of the i-th vertex.
   int place(int i) const {
     unsigned left = places;
@@ -46,9 +49,11 @@ struct Simplex {
     points[free] = point, weights[free] = 0, places |= 1u << free;
   }
 
-  bool holds(const Vector<D, S>& x) const {
+  bool holds(const Vector<D, S>& x) const { return holds(x, places); }
+  /// Whether x is the vertex of one of these places.
+  bool holds(const Vector<D, S>& x, unsigned among) const {
     bool held = false;
-    for (int i = 0; i <= D; ++i) held |= (places >> i & 1) != 0 && points[i].w == x;
+    for (int i = 0; i <= D; ++i) held |= (among >> i & 1) != 0 && points[i].w == x;
     return held;
   }
 
@@ -67,8 +72,9 @@ struct Simplex {
 
  private:
   Vector<D, S> weighted(Vector<D, S> Point::*member) const {
-    Vector<D, S> sum = weight(0) * ((*this)[0].*member);
-    for (int i = 1; i < size(); ++i) sum += weight(i) * ((*this)[i].*member);
+    int at = std::countr_zero(places);
+    Vector<D, S> sum = weights[at] * (points[at].*member);
+    for (unsigned left = places & (places - 1); left != 0; left &= left - 1) at = std::countr_zero(left), sum += weights[at] * (points[at].*member);
     return sum;
   }
 };

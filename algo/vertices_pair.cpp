@@ -1,7 +1,6 @@
 #include "algo/vertices_pair.h"
 
 #ifdef GJKDBG_AVX2
-#include <bit>
 #include <immintrin.h>
 
 #include "algo/minkowski_difference.h"
@@ -9,60 +8,44 @@
 namespace gjkdbg {
 namespace {
 
-/// Of several places, bits of `found`, the one that GreatestOfFours::found takes: it compares columns 2 and 3 with 0 and 1 first, and keeps the first of each.
-[[gnu::noinline]] unsigned first_by_column(unsigned found) {
-  constexpr unsigned column = 0x11111111;
-  for (const int k : {0, 2, 1})
-    if (const unsigned of_column = found & (column << k)) return static_cast<unsigned>(std::countr_zero(of_column));
-  return static_cast<unsigned>(std::countr_zero(found));
+[[gnu::target("avx2"), gnu::always_inline]] inline __m256d three(const double* v) { return _mm256_set_m128d(_mm_load_sd(v + 2), _mm_loadu_pd(v)); }
+[[gnu::target("avx2"), gnu::always_inline]] inline void store(double* v, __m256d three) {
+  _mm_storeu_pd(v, _mm256_castpd256_pd128(three));
+  _mm_store_sd(v + 2, _mm256_extractf128_pd(three, 1));
 }
 
-/// The place of the highest of 4 * fours places; beyond the last four that one is looked at again.
-template <int fours>
-[[gnu::target("avx2"), gnu::always_inline]] inline unsigned highest(const VertexFours<3, double>& vertices, double x, double y, double z) {
-  const __m256d along_x = _mm256_set1_pd(x), along_y = _mm256_set1_pd(y), along_z = _mm256_set1_pd(z);
-  const double* const first = vertices.data();
-  const std::size_t last = (vertices.size() - 1) / 4;
-  __m256d height[fours];
-  for (std::size_t i = 0; i < fours; ++i) {
-    const double* const four = first + 12 * (i < last ? i : last);
-    const __m256d in_plane = _mm256_add_pd(_mm256_mul_pd(along_x, _mm256_loadu_pd(four)), _mm256_mul_pd(along_y, _mm256_loadu_pd(four + 4)));
-    height[i] = _mm256_add_pd(in_plane, _mm256_mul_pd(along_z, _mm256_loadu_pd(four + 8)));
-  }
-  __m256d most[fours];
-  for (int i = 0; i < fours; ++i) most[i] = height[i];
-  for (int step = fours / 2; step > 0; step /= 2)
-    for (int i = 0; i < step; ++i) most[i] = _mm256_max_pd(most[i], most[i + step]);
-  __m256d greatest = _mm256_max_pd(most[0], _mm256_permute2f128_pd(most[0], most[0], 1));
-  greatest = _mm256_max_pd(greatest, _mm256_permute_pd(greatest, 5));
-  unsigned found = 0;
-  for (int i = 0; i < fours; ++i) found |= static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(height[i], greatest, _CMP_EQ_OQ))) << (4 * i);
-  found &= ~0u >> (28 - 4 * last);
-  if (found == 0) [[unlikely]] return 0;  // no numbers
-  return (found & (found - 1)) == 0 ? static_cast<unsigned>(std::countr_zero(found)) : first_by_column(found);
-}
-
-[[gnu::target("avx2"), gnu::always_inline]] inline const double* highest_of(const VertexFours<3, double>& vertices, double x, double y, double z) {
-  const unsigned place = vertices.size() <= 16 ? highest<4>(vertices, x, y, z) : highest<8>(vertices, x, y, z);
-  return vertices.data() + 12 * (place / 4) + place % 4;
-}
-
-/// Element i of a product, in the order in which Eigen adds up: of two rows at once from the first column, of the row that is left over from the last.
-[[gnu::always_inline]] inline double turned(const Matrix<3, double>& m, int i, double x, double y, double z) {
-  return i < 2 ? (m(i, 0) * x + m(i, 1) * y) + m(i, 2) * z : m(i, 0) * x + (m(i, 1) * y + m(i, 2) * z);
+/// m v, in the order in which Eigen adds up: of two rows at once from the first column, of the row that is left over from the last.
+[[gnu::target("avx2"), gnu::always_inline]] inline __m256d turned(const Matrix<3, double>& m, __m256d x, __m256d y, __m256d z) {
+  x = _mm256_mul_pd(x, _mm256_loadu_pd(m.data())), y = _mm256_mul_pd(y, _mm256_loadu_pd(m.data() + 3)), z = _mm256_mul_pd(z, three(m.data() + 6));
+  return _mm256_blend_pd(_mm256_add_pd(_mm256_add_pd(x, y), z), _mm256_add_pd(x, _mm256_add_pd(y, z)), 0b0100);
 }
 
 }  // namespace
 
-[[gnu::target("avx2")]] void VerticesPair::support(const RelativePose<3, double>& pose, const Vector<3, double>& d, SupportPoint<3, double>& point) const {
-  const auto in_b = [&](int i) { return -turned(pose.inverse, i, d[0], d[1], d[2]); };
-  const double* const a = highest_of(*a_, d[0], d[1], d[2]);
-  const double* const b = highest_of(*b_, in_b(0), in_b(1), in_b(2));
-  for (int i = 0; i < 3; ++i) {
-    point.a[i] = a[4 * i];
-    point.b[i] = turned(pose.rotation, i, b[0], b[4], b[8]) + pose.position[i];
-    point.w[i] = point.a[i] - point.b[i];
+/// Body 1 first, for its direction has to be turned before, and its point after: everything else waits for it.
+[[gnu::target("avx2")]] void VerticesPair::support(const RelativePose<3, double>& pose, double x, double y, double z, SupportPoint<3, double>& point) const {
+  const float size = static_cast<float>(std::abs(x) + std::abs(y) + std::abs(z)) * 1.75F + std::numeric_limits<float>::min();
+  const __m256d towards_a = _mm256_xor_pd(_mm256_set1_pd(-0.0), turned(pose.inverse, _mm256_set1_pd(x), _mm256_set1_pd(y), _mm256_set1_pd(z)));
+  const __m128 single = _mm256_cvtpd_ps(towards_a);
+  const __m256 twice = _mm256_set_m128(single, single);
+  VertexEights::Highest a = a_->highest(_mm256_set1_ps(static_cast<float>(x)), _mm256_set1_ps(static_cast<float>(y)), _mm256_set1_ps(static_cast<float>(z)), size);
+  VertexEights::Highest b = b_->highest(_mm256_permute_ps(twice, 0b00000000), _mm256_permute_ps(twice, 0b01010101), _mm256_permute_ps(twice, 0b10101010), size);
+  if (!b.sure()) [[unlikely]] {
+    double d[4];
+    _mm256_storeu_pd(d, towards_a);
+    b.place = b_->settled(b.high, d);
   }
+  if (!a.sure()) [[unlikely]] {
+    const double d[3] = {x, y, z};
+    a.place = a_->settled(a.high, d);
+  }
+  const double* const vertex = b_->vertex(b.place);
+  const __m256d of_b = turned(pose.rotation, _mm256_broadcast_sd(vertex), _mm256_broadcast_sd(vertex + 1), _mm256_broadcast_sd(vertex + 2));
+  const __m256d at_a = _mm256_loadu_pd(a_->vertex(a.place)), at_b = _mm256_add_pd(of_b, three(pose.position.data()));
+  // Four numbers at once, the last of them to be written over, so that any of the three may be read as soon as it is written, one or two at once.
+  _mm256_storeu_pd(point.w.data(), _mm256_sub_pd(at_a, at_b));
+  _mm256_storeu_pd(point.a.data(), at_a);
+  store(point.b.data(), at_b);
 }
 
 }  // namespace gjkdbg

@@ -19,33 +19,33 @@ struct RelativePose;
 
 class VerticesPair {
  public:
-  static constexpr std::size_t least = 9, most = 32;  ///< vertices of each
-
   /// For bodies that have no such cores, and on processors that cannot, it says no.
   template <class A, class B>
   VerticesPair([[maybe_unused]] const A& a, [[maybe_unused]] const B& b) {
 #ifdef GJKDBG_AVX2
-    const auto *of_a = vertices_of(a), *of_b = vertices_of(b);
-    if (of_a && of_b && __builtin_cpu_supports("avx2")) a_ = of_a, b_ = of_b;
+    const auto *of_a = eights_of(a), *of_b = eights_of(b);
+    if (of_a && of_b && __builtin_cpu_supports("avx2")) a_ = of_a, b_ = of_b, a_->fetch(), b_->fetch();
 #endif
   }
-  explicit operator bool() const { return a_ != nullptr; }
 
 #ifdef GJKDBG_AVX2
+  explicit operator bool() const { return a_ != nullptr; }
   /// What MinkowskiDifference::support says, number by number; of vertices as high as one another the one VertexFours::highest takes. All but the point's number.
   /// Not inlined: a caller that is to be flattened (MinkowskiDifference::support) is no code for AVX2.
-  [[gnu::noinline]] void support(const RelativePose<3, double>& pose, const Vector<3, double>& d, SupportPoint<3, double>& point) const;
+  [[gnu::noinline]] void support(const RelativePose<3, double>& pose, double x, double y, double z, SupportPoint<3, double>& point) const;
 #endif
 
  private:
+#ifdef GJKDBG_AVX2
   template <class Body>
-  static const VertexFours<3, double>* vertices_of(const Body& body) {
+  static const VertexEights* eights_of(const Body& body) {
     if constexpr (std::is_same_v<Body, Convex<3, double>>)
-      if (const auto* core = std::get_if<VerticesCore<3, double>>(&body.core()); core && least <= core->vertices.size() && core->vertices.size() <= most) return &core->vertices;
+      if (const auto* core = std::get_if<VerticesCore<3, double>>(&body.core())) return core->eights ? &core->eights : nullptr;
     return nullptr;
   }
 
-  const VertexFours<3, double>*a_ = nullptr, *b_ = nullptr;
+  const VertexEights *a_ = nullptr, *b_ = nullptr;
+#endif
 };
 
 }  // namespace gjkdbg

@@ -17,7 +17,7 @@
 #include <memory>
 #include <utility>
 
-#include "shapes/vertex_fours.h"
+#include "shapes/vertex_eights.h"
 
 namespace gjkdbg {
 
@@ -164,6 +164,9 @@ struct EllipsoidCore {
 template <int D, class S>
 struct VerticesCore {
   VertexFours<D, S> vertices;
+#ifdef GJKDBG_AVX2
+  VertexEights eights;  ///< of 9 to 32 vertices in space, in double
+#endif
   Vector<D, S> center() const {
     Vector<D, S> sum = Vector<D, S>::Zero();
     for (std::size_t i = 0; i < vertices.size(); ++i) sum += vertices[i];

@@ -13,8 +13,28 @@ template <class S>
 struct Triple {
   S x, y, z;
 
-  [[gnu::always_inline]] static Triple of(const Vector<3, S>& v) { return {v[0], v[1], v[2]}; }
-  [[gnu::always_inline]] Vector<3, S> vector() const { return {x, y, z}; }
+  template <int D>
+  [[gnu::always_inline]] static Triple of(const Vector<D, S>& v) {
+    return {v[0], D > 1 ? v[1 % D] : S(0), D > 2 ? v[2 % D] : S(0)};
+  }
+  /// Of a vector that was just written: whatever compilers make of it, one number is read at a time.
+  template <int D>
+  [[gnu::always_inline]] static Triple just_written(const Vector<D, S>& v) {
+    const volatile S* const numbers = v.data();
+    Triple t{numbers[0], 0, 0};
+    if constexpr (D > 1) t.y = numbers[1];
+    if constexpr (D > 2) t.z = numbers[2];
+    return t;
+  }
+  template <int D = 3>
+  [[gnu::always_inline]] Vector<D, S> vector() const {
+    Vector<D, S> v;
+    v[0] = x;
+    if constexpr (D > 1) v[1] = y;
+    if constexpr (D > 2) v[2] = z;
+    return v;
+  }
+  [[gnu::always_inline]] Triple operator-() const { return {-x, -y, -z}; }
   [[gnu::always_inline]] Triple operator+(const Triple& t) const { return {x + t.x, y + t.y, z + t.z}; }
   [[gnu::always_inline]] Triple operator-(const Triple& t) const { return {x - t.x, y - t.y, z - t.z}; }
   [[gnu::always_inline]] Triple operator*(S s) const { return {x * s, y * s, z * s}; }
