@@ -51,12 +51,13 @@ class Epa {
       trace_(FaceChosen<V, Viewed>{result_.iterations, number, face.normal, face.distance});
       if (result_.iterations >= options_.max_iterations) return limit_reached(number, face);
       ++result_.iterations;
-      const Point point = query(face.normal, Phase::epa);
+      const int newest = polytope_.add([&] { return query(face.normal, Phase::epa); });
+      const Point& point = polytope_.points()[newest];
       const S height = face.normal.dot(point.w);
       offer(number, face, height, point);
       if (height < 0 && face.distance < 0) return EpaStatus::separated;
       if (best_height_ - face.distance <= options_.tolerance * best_height_ + floor_) return EpaStatus::converged;
-      if (is_corner(face, point.w) || !polytope_.grow(polytope_.add_point(point), number)) return EpaStatus::stalled;
+      if (is_corner(face, point.w) || !polytope_.grow(newest, number)) return EpaStatus::stalled;
       trace_grown(point.vertex);
     }
   }

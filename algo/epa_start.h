@@ -7,6 +7,7 @@
 // of them on the far side. So four more points are asked for around the way out, where the answer is expected: see `ring`.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -122,10 +123,12 @@ class EpaStart {
     const S delta = height[top] / (height[top] + length);
     if (!(vertices * delta > 4)) return false;
     const V u = a.unitOrthogonal() * (S(1.4) * delta + 3 / std::sqrt(vertices)), v = a.cross(u);
-    const std::array<Point, 4> around{query(a + u), query(a + v), query(a - u), query(a - v)};
+    const std::array<V, 4> directions{a + u, a + v, a - u, a - v};
     std::array<int, 4> numbers;
-    for (int k = 0; k < 4; ++k) numbers[k] = polytope_.add_point(around[k]);
+    for (int k = 0; k < 4; ++k) numbers[k] = polytope_.add([&] { return query(directions[k]); });
     if (polytope_.start_octahedron({polytope_.add_point(simplex[top]), polytope_.add_point(simplex[bottom])}, numbers, floor_)) return true;
+    std::array<Point, 4> around;
+    std::copy_n(polytope_.points().begin(), 4, around.begin());
     polytope_.clear();
     start_from(simplex);
     for (const Point& point : around) {

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <new>
 #include <span>
 #include <utility>
 #include <vector>
@@ -41,14 +42,19 @@ class Polytope {
 
   void clear() {
     std::fill_n(nearness_.begin(), (places_ + 3) / 4, nobody());
-    points_.clear(), met_.clear();
-    count_ = places_ = 0, tidy_at_ = 64, reach_ = 0, growths_ = 0;
+    count_ = places_ = size_ = 0, tidy_at_ = 64, reach_ = 0, growths_ = 0;
   }
   int add_point(const Point& point) {
-    points_.push_back(point);
-    met_.push_back(0);
+    return add([&] { return point; });
+  }
+  /// The point that `make` returns, made where it stays: what was just written number by number is slow to copy.
+  template <class Make>
+  [[gnu::always_inline]] int add(Make make) {
+    if (size_ == points_.size()) points_.resize(2 * size_ + 16), met_.resize(points_.size());
+    const Point& point = *new (&points_[size_]) Point(make());
+    met_[size_] = 0;
     reach_ = std::max(reach_, point.w.cwiseAbs().maxCoeff());
-    return static_cast<int>(points_.size()) - 1;
+    return static_cast<int>(size_++);
   }
 
   /// Starts from D + 1 points that span the space (any orientation).
@@ -69,7 +75,7 @@ class Polytope {
   bool grow(int p, int seen);
   const Growth& growth() const { return growth_; }  ///< of the last grow, if it succeeded
 
-  const std::vector<Point>& points() const { return points_; }
+  std::span<const Point> points() const { return {points_.data(), size_}; }
   std::span<const Face> faces() const { return {faces_.data(), count_}; }
 
  private:
@@ -105,6 +111,7 @@ class Polytope {
   void undo_growth();
 
   std::vector<Point> points_;
+  std::size_t size_ = 0;  ///< of points_
   std::vector<int> met_;  ///< 3D: by point: the growth in whose horizon it was last
   S reach_ = 0;           ///< largest coordinate of a point, in magnitude
 

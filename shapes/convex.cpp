@@ -43,13 +43,7 @@ void Convex<D, S>::set_vertices(std::vector<Vector<D, double>> points, double sc
       core_ = PolygonCore<S>(points);
       return;
     }
-  VerticesCore<D, S> core;
-  for (const auto& p : points) core.vertices.push_back(p.template cast<S>());
-#ifdef GJKDBG_AVX2
-  if constexpr (D == 3 && sizeof(S) == 8)
-    if (VertexEights::least <= points.size() && points.size() <= VertexEights::most) core.eights = VertexEights(core.vertices);
-#endif
-  core_ = std::move(core);
+  core_ = VerticesCore<D, S>(points);
 }
 
 template <int D, class S>

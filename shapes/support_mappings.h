@@ -16,6 +16,7 @@
 #include <cmath>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "shapes/vertex_eights.h"
 
@@ -164,14 +165,22 @@ struct EllipsoidCore {
 template <int D, class S>
 struct VerticesCore {
   VertexFours<D, S> vertices;
+  Vector<D, S> middle = Vector<D, S>::Zero();  ///< their mean
 #ifdef GJKDBG_AVX2
   VertexEights eights;  ///< of 9 to 32 vertices in space, in double
 #endif
-  Vector<D, S> center() const {
-    Vector<D, S> sum = Vector<D, S>::Zero();
-    for (std::size_t i = 0; i < vertices.size(); ++i) sum += vertices[i];
-    return sum / static_cast<S>(vertices.size());
+
+  VerticesCore() = default;
+  explicit VerticesCore(const std::vector<Vector<D, double>>& points) {
+    for (const auto& p : points) vertices.push_back(p.template cast<S>());
+    for (std::size_t i = 0; i < vertices.size(); ++i) middle += vertices[i];
+    middle /= static_cast<S>(vertices.size());
+#ifdef GJKDBG_AVX2
+    if constexpr (D == 3 && sizeof(S) == 8)
+      if (VertexEights::least <= vertices.size() && vertices.size() <= VertexEights::most) eights = VertexEights(vertices);
+#endif
   }
+  const Vector<D, S>& center() const { return middle; }
   Vector<D, S> support(const Vector<D, S>& d) const { return vertices.highest(d); }
 };
 
