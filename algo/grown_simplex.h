@@ -48,7 +48,7 @@ class GrownSimplex {
   };
 
   /// The old vertices' places, at most three, and the newest one's, whose w is a.
-  [[gnu::always_inline]] static Nearest closest(const Points& points, unsigned old, int newest, const T& a) {
+  [[gnu::always_inline]] static Nearest closest(const Points& points, unsigned old, int newest, const T a) {
     if (old == 0) return told(a, 1u << newest);
     const Edge i(points, a, newest, std::countr_zero(old));
     if (!(old &= old - 1)) return along(i);

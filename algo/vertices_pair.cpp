@@ -30,13 +30,11 @@ namespace {
   const __m256 twice = _mm256_set_m128(single, single);
   VertexEights::Highest a = a_->highest(_mm256_set1_ps(static_cast<float>(x)), _mm256_set1_ps(static_cast<float>(y)), _mm256_set1_ps(static_cast<float>(z)), size);
   VertexEights::Highest b = b_->highest(_mm256_permute_ps(twice, 0b00000000), _mm256_permute_ps(twice, 0b01010101), _mm256_permute_ps(twice, 0b10101010), size);
-  if (!b.sure()) [[unlikely]] {
+  if (!a.sure() || !b.sure()) [[unlikely]] {
     double d[4];
     _mm256_storeu_pd(d, towards_a);
     b.place = b_->settled(b.high, d);
-  }
-  if (!a.sure()) [[unlikely]] {
-    const double d[3] = {x, y, z};
+    d[0] = x, d[1] = y, d[2] = z;
     a.place = a_->settled(a.high, d);
   }
   const double* const vertex = b_->vertex(b.place);
