@@ -146,16 +146,21 @@ class Epa {
   }
 
   /// The origin's projection on the answering plane, as a combination of a face's vertices. Where that plane carries several
-  /// faces, the projection lies in one of them only, not always in the one that was asked first.
-  void set_points(std::array<int, D> vertices) {
-    auto weights = weights_in(vertices, false);
-    S miss = projection_error(vertices, weights);
-    if (miss > floor_) weights = weights_in(vertices, true), miss = projection_error(vertices, weights);
-    if (miss > floor_) {
+  /// faces, the projection lies in one of them only, not always in the one that was asked first: an edge of A and one of B make a parallelogram of two.
+  void set_points(const std::array<int, D>& asked_first) {
+    std::array<int, D> vertices;
+    std::array<S, D> weights;
+    S miss = std::numeric_limits<S>::infinity();
+    const auto take = [&](const std::array<int, D>& corners, bool wide) {
+      const auto found = weights_in(corners, wide);
+      if (const S error = projection_error(corners, found); !(error >= miss)) miss = error, weights = found, vertices = corners;
+    };
+    take(asked_first, false);
+    for (const bool wide : {false, true}) {
+      if (wide && miss > floor_) take(asked_first, true);
       for (const Face& face : polytope_.faces()) {
-        if (face.removed || face.distance > best_height_ + floor_ || face.normal.dot(result_.normal) < S(0.999)) continue;
-        const auto others = weights_in(face.vertices, true);
-        if (const S error = projection_error(face.vertices, others); error < miss) miss = error, weights = others, vertices = face.vertices;
+        if (!(miss > floor_)) break;
+        if (!face.removed && face.distance <= best_height_ + floor_ && face.normal.dot(result_.normal) >= S(0.999)) take(face.vertices, wide);
       }
     }
     for (int i = 0; i < D; ++i) {
