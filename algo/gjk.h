@@ -16,8 +16,8 @@
 #include <span>
 #include <utility>
 
+#include "algo/gjk_options.h"
 #include "algo/leading_direction.h"
-#include "algo/settings.h"
 #include "algo/signed_volumes.h"
 #include "algo/simplex.h"
 #include "algo/trace.h"
@@ -105,8 +105,6 @@ class Gjk {
           leading_.in_vain();
           continue;
         }
-      }
-      if constexpr (leads) {
         if (begun) leading_.met(point);
         else leading_.begin(vector(d), length, point);
       }

@@ -32,7 +32,7 @@ VertexEights::VertexEights(const VertexFours<3, double>& vertices) : size_(stati
       far = std::max(far, std::abs(x));
     }
   }
-  near_ = static_cast<float>(far) * 1e-5F + std::numeric_limits<float>::min();
+  far_ = static_cast<float>(far) + std::numeric_limits<float>::min();
   numbers_ = numbers;
 }
 
@@ -48,7 +48,10 @@ std::size_t VertexEights::settled(unsigned high, const double* d) const {
     if (height > greatest) greatest = height, found = 0;
     found |= 1U << place;
   }
-  return found != 0 ? first_by_column(found) : 0;  // no numbers
+  if (found == 0) return 0;  // no numbers
+  const unsigned last = size_ - 1;  // stands in VertexFours for those that its four lacks
+  if ((found >> last & 1) != 0) found |= (2U << (last | 3)) - (1U << last);
+  return std::min<std::size_t>(first_by_column(found), last);
 }
 
 }  // namespace gjkdbg

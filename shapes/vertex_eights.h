@@ -8,7 +8,7 @@
 //
 // By how much a height may be off, with t = (|d_x| + |d_y| + |d_z|) m no less than the sum of its products' sizes and m the greatest coordinate: the direction and the vertex are
 // rounded by 2^-24, three products and two sums as often again, which is 5 2^-24 t; the place changes it by less than 2^-18 t. Two heights, and the difference: less than 2^-16.8 t. What
-// underflows is less than 2^-140 (1 + m + |d|). A direction or a height beyond single precision is no number, or makes none, and what cannot be compared counts as high.
+// underflows is less than the smallest normal number. Where t is beyond single precision, so is the bar, and all vertices may be the highest.
 #pragma once
 
 #include <array>
@@ -58,7 +58,7 @@ class VertexEights {
     __m128 greatest = _mm_max_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
     greatest = _mm_max_ps(greatest, _mm_permute_ps(greatest, 0b01001110));
     greatest = _mm_max_ps(greatest, _mm_permute_ps(greatest, 0b10110001));
-    const __m256 bar = _mm256_set1_ps(_mm_cvtss_f32(greatest) - (size * near_ + std::numeric_limits<float>::min()));
+    const __m256 bar = _mm256_set1_ps(_mm_cvtss_f32(greatest) - (size * far_ * near + std::numeric_limits<float>::min()));
     __m256i high[4];
     for (int i = 0; i < 4; ++i) high[i] = _mm256_castps_si256(_mm256_cmp_ps(height[i], bar, _CMP_NLT_UQ));
     const __m256i all = _mm256_packs_epi16(_mm256_packs_epi32(high[0], high[1]), _mm256_packs_epi32(high[2], high[3]));
@@ -77,7 +77,8 @@ class VertexEights {
   };
 
   std::shared_ptr<const Numbers> numbers_;
-  float near_ = 0;  ///< times |d_x| + |d_y| + |d_z|: heights nearer to one another may be the other way round
+  static constexpr float near = 1e-5F;  ///< times t: heights nearer to one another may be the other way round
+  float far_ = 0;                       ///< the greatest coordinate
   unsigned size_ = 0;
 };
 
