@@ -47,10 +47,9 @@ struct GjkSteps {
   int on_the_spot = 0;
   V stepped_to;  ///< by the last of these
 
-  /// |v| must fall. Where the plane still turns but |v| falls by less than it rounds (a nearly flat part of A - B met at
+  /// |v| must fall, and has not. Where the plane still turns but |v| falls by less than it rounds (a nearly flat part of A - B met at
   /// a grazing angle), a few steps on the spot are allowed, not twice to the same.
   [[gnu::noinline]] bool allowed(V before, S squared_before, V v, S v_squared, S rounding) {
-    if (v_squared < squared_before) return true;
     if (v == before || (on_the_spot > 0 && v == stepped_to) || !(v_squared <= squared_before + rounding) || ++on_the_spot > 8) return false;
     stepped_to = v;
     return true;
