@@ -7,7 +7,8 @@
 //   stop when the bounds meet; else add w, cut the simplex down to the feature nearest the origin
 // Deviations: |v| must fall in every step; where it does not, the simplex is judged again in twice the precision and,
 // if that does not help, the loop ends as `stalled` with honest bounds. Bounds include the rounding floor.
-// Directions may carry Nesterov's momentum (Montaut et al., section IV): fewer steps where curvature is small; or be Newton's (algo/newton_direction.h).
+// Directions may carry Nesterov's momentum (Montaut et al., section IV): fewer steps where curvature is small; or be Newton's (algo/newton_direction.h);
+// or be smoothed in the first steps (algo/leading_direction.h): fewer steps of polytopes.
 // The sub-algorithm is a policy: ClosestFeature<D, S> closest(const V* w, int size). One that has a `Grown` (algo/grown_simplex.h) is asked that first.
 #pragma once
 
@@ -65,7 +66,7 @@ struct GjkSteps {
   }
 };
 
-/// leads: directions other than -v, too (`accelerated`).
+/// leads: directions other than -v in any step, not in the first ones alone.
 template <class Difference, class SubAlgorithm, class Trace, bool leads>
 class Gjk {
   static constexpr int D = Difference::D;
@@ -84,37 +85,31 @@ class Gjk {
 
   [[gnu::always_inline]] void run() {
     trace_(GjkBegan<V, Viewed>{options_.direction});
-    bool begun = !options_.kept.empty();
-    if (begun) keep();
-    while (!begun || !ended()) {
-      T d = begun ? -v_ : T::of(options_.direction);
-      S length = begun ? distance_ : options_.direction.norm();
-      if (begun) ++iterations_;
-      bool led = false;
-      if constexpr (leads)
-        if (begun) led = leading_.next(d, length, {iterations_, v_, v_squared_, distance_, lower_bound_ + floor_});
+    if (options_.kept.empty()) begin();
+    else keep();
+    while (!ended()) {
+      ++iterations_;
+      T d = -v_;
+      S length = distance_;
+      const bool led = leading_.next(d, length, {iterations_, v_, v_squared_, distance_, lower_bound_ + floor_});
       const Point& point = query(d, length);
-      if (begun && !led && proven(point)) break;
-      if constexpr (leads) {
-        if (led && options_.goal == GjkGoal::intersect && lower_bound_ > difference_.radius()) {
+      if (led) {
+        if (options_.goal == GjkGoal::intersect && lower_bound_ > difference_.radius()) {
           status_ = GjkStatus::separated;
           break;
         }
-        if (led && brings_nothing(point)) {
+        if (brings_nothing(point)) {
           leading_.in_vain();
           continue;
         }
-        if (begun) leading_.met(point);
-        else leading_.begin(vector(d), length, point);
+      } else if (proven(point)) {
+        break;
       }
-      if (!reduce() && !(begun && reduce_again())) {
-        if (begun) {
-          places_ &= ~(1u << newest_), status_ = GjkStatus::stalled;
-          break;
-        }
-        places_ = 1u << newest_, result_.simplex.weights[newest_] = 1;  // no number: a simplex has a vertex all the same
+      if constexpr (leads) leading_.met(point);
+      if (!reduce() && !reduce_again()) {
+        places_ &= ~(1u << newest_), status_ = GjkStatus::stalled;
+        break;
       }
-      begun = true;
     }
     finish();
   }
@@ -134,12 +129,20 @@ class Gjk {
     plane_ = -d.dot(newest_w_) / length;
     lower_bound_ = std::max(lower_bound_, plane_ - floor_);
     if constexpr (leads) leading_.take(vector(d), length, point);
+    else leading_.take(d, length, plane_);
     return point;
   }
 
   [[gnu::always_inline]] static V vector(const T& t) { return t.template vector<D>(); }
   V v() const { return vector(v_); }
 
+  [[gnu::always_inline]] void begin() {
+    const T d = T::of(options_.direction);
+    const S length = options_.direction.norm();
+    const Point& point = query(d, length);
+    if constexpr (leads) leading_.begin(vector(d), length, point);
+    if (!reduce()) places_ = 1u << newest_, result_.simplex.weights[newest_] = 1;  // no number: a simplex has a vertex all the same
+  }
   [[gnu::always_inline]] void keep() {
     for (const Point& point : options_.kept) {
       trace_(VertexKept<V, Viewed>{point.vertex, point.a, point.b, point.w});
@@ -338,7 +341,7 @@ void gjk(Difference& difference, const GjkOptions<Difference::D, typename Differ
   const auto run = [&]<bool leads>(LeadingDirection<Difference, leads> leading) __attribute__((always_inline)) {
     Gjk<Difference, SubAlgorithm, Trace, leads>(difference, options, trace, result, steps, leading).run();
   };
-  if (options.accelerated) run(LeadingDirection<Difference, true>(difference, options));
+  if (options.accelerated && options.acceleration != Acceleration::smoothed) run(LeadingDirection<Difference, true>(difference, options));
   else run(LeadingDirection<Difference, false>(difference, options));
 }
 

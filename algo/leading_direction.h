@@ -1,8 +1,9 @@
-// Search directions of GJK other than -v: with momentum, or Newton's.
+// Search directions of GJK other than -v: with momentum, Newton's, or smoothed.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "algo/gjk_options.h"
@@ -19,15 +20,63 @@ struct GjkProgress {
   S v_squared, distance, plane;  ///< |v|^2, |v|, the farthest plane met
 };
 
-/// None at all, where they are not wanted.
+/// Few at most: -v, and where that is wanted (Acceleration::smoothed) a mean of -v and of the best plane's direction in the first steps.
+///
+/// GJK is column generation: the simplex is the restricted master problem, -v its dual prices, support the pricing problem, and every plane a dual bound. Prices of
+/// a simplex of one or two vertices swing: -w of a single corner w points off to the side, the more so the nearer the bodies are, and asks for a corner the nearest face rarely
+/// has. The remedy there is to ask between the prices and those of the best bound so far (Wentges 1997, "Weighted Dantzig-Wolfe decomposition for
+/// linear mixed-integer programming"). Here, with c = plane / |v| the cosine of the angle that -v and the normal sought can lie apart
+/// (v*.v >= |v*|^2 for the nearest point v*, and |v*| is no less than the plane):
+///
+///   c near 1    -v is right, for w is the nearest vertex already: where the angle is less than that of neighbours among N vertices spread over a sphere,
+///               sqrt(4 pi / N), or c more than 1 - 2 pi / N; pairs of 8 to 100 vertices say 1 - 4 / N
+///   c below 0   no plane separates the bodies yet; where that is far from it they are deep, and -v encloses the origin as soon
+///
+/// Supports of random pairs within radii of 1, 0.8 and 0.6, plain and smoothed, 0.001 to 0.1 apart, 0.1 to 10 apart, and up to 0.3 deep:
+///
+///   boxes                  3.8  3.3    3.1  3.0    4.4  4.1
+///   hulls of 32 vertices   5.8  4.1    3.5  3.1    4.6  4.1
+///   hulls of 100           7.7  5.3    4.3  3.6    5.0  4.2
+///
+/// One step instead of two takes up to 0.8 more; three, and 2 or 3 parts of the best direction to one of -v, up to 0.3 more in some rows and less in others.
+/// Round shapes, whose steps are many, gain nothing.
 template <class Difference, bool leads>
 class LeadingDirection {
   static constexpr int D = Difference::D;
   using S = typename Difference::S;
+  using T = Triple<S>;
 
  public:
-  LeadingDirection(const Difference&, const GjkOptions<D, S>&) {}
+  LeadingDirection(const Difference& difference, const GjkOptions<D, S>& options) : left_(options.accelerated && options.kept.empty() ? steps : 0) {
+    if (left_ > 0) near_ = 1 - S(8) / (vertices(difference.a()) + vertices(difference.b()));
+  }
   static constexpr bool by_newton() { return false; }
+
+  /// What the support along d, which is `length` long, shows to lie beyond the plane across it.
+  [[gnu::always_inline]] void take(const T& d, S length, S plane) {
+    if (left_ == 0 || !(plane > best_)) return;
+    best_ = plane, towards_best_ = d * (1 / length);
+  }
+  void in_vain() {}
+
+  [[gnu::always_inline]] bool next(T& direction, S& length, const GjkProgress<S>& at) {
+    if (left_ == 0) return false;
+    if (!(best_ > far * at.distance && best_ < near_ * at.distance)) return left_ = 0, false;
+    --left_;
+    direction = towards_best_ * (share * at.distance) - at.v;  // times |v|
+    length = std::sqrt(direction.dot(direction));
+    return true;
+  }
+
+ private:
+  static constexpr int steps = 2;
+  static constexpr S share = S(2.5), far = S(-0.6);
+  template <class Body>
+  static S vertices(const Body& body) { return body.vertices() > 0 ? S(body.vertices()) : std::numeric_limits<S>::infinity(); }
+
+  int left_;  ///< steps
+  S near_ = 0, best_ = -std::numeric_limits<S>::infinity();
+  T towards_best_{0, 0, 0};
 };
 
 template <class Difference>

@@ -37,9 +37,10 @@ enum class Stopping {
 inline constexpr std::array<std::string_view, 5> stopping_names{"bounds", "van-den-bergen", "bullet", "jolt", "opengjk"};
 constexpr std::string_view word_of(Stopping x) { return stopping_names[static_cast<std::size_t>(x)]; }
 
-/// How gjk-accelerated comes to its directions: by momentum (Montaut et al. 2024, section IV), or by Newton's method (algo/newton_direction.h).
-enum class Acceleration { nesterov, polyak, newton };
-inline constexpr std::array<std::string_view, 3> acceleration_names{"nesterov", "polyak", "newton"};
+/// How gjk-accelerated comes to its directions: by momentum (Montaut et al. 2024, section IV), by Newton's method (algo/newton_direction.h), or
+/// by the best plane's direction as well, in its first steps (algo/leading_direction.h).
+enum class Acceleration { nesterov, polyak, newton, smoothed };
+inline constexpr std::array<std::string_view, 4> acceleration_names{"nesterov", "polyak", "newton", "smoothed"};
 constexpr std::string_view word_of(Acceleration x) { return acceleration_names[static_cast<std::size_t>(x)]; }
 
 /// Who takes over when the cores overlap.

@@ -379,7 +379,7 @@ class Program(unittest.TestCase):
         for family in chart["families"]:
             self.assertTrue(any(p["front"] for p in family["points"]))
             # MPR has no shortest way out, and says so; other libraries, where installed, are as they are.
-            ours = ("signed volumes", "Johnson", "Voronoi regions", "accelerated", "Polyak", "Newton", "SAT")
+            ours = ("signed volumes", "Johnson", "Voronoi regions", "accelerated", "Polyak", "Newton", "smoothed", "SAT")
             tight = [p for p in family["points"] if p["tolerance"] <= 1e-10 and p["method"] in ours]
             self.assertTrue(tight)
             self.assertTrue(all(str(p["worst_pair"]) in family["scenes"] for p in family["points"]))
@@ -435,9 +435,9 @@ class Program(unittest.TestCase):
             for cell in family["cells"]:
                 good = ["right", "right-within-rounding"]
                 moving = family["name"] in ("T1", "T2")
-                if cell["method"] in ("SAT", "closed form", "projections", "root finding", "ray cast") or moving and cell["method"] in ("yes or no", "fastest") or moving and cell["method"] in ("accelerated", "Polyak", "Newton"):
+                if cell["method"] in ("SAT", "closed form", "projections", "root finding", "ray cast") or moving and cell["method"] in ("yes or no", "fastest") or moving and cell["method"] in ("accelerated", "Polyak", "Newton", "smoothed"):
                     good.append("not-applicable")  # round shapes; all but balls and segments; hulls; what does not move; other directions
-                if cell["method"] in ("signed volumes", "Johnson", "Voronoi regions", "accelerated", "Polyak", "Newton", "SAT", "closed form", "projections", "fastest", "yes or no", "root finding", "ray cast"):
+                if cell["method"] in ("signed volumes", "Johnson", "Voronoi regions", "accelerated", "Polyak", "Newton", "smoothed", "SAT", "closed form", "projections", "fastest", "yes or no", "root finding", "ray cast"):
                     self.assertIn(cell["verdict"], good, (family["name"], cell["method"]))
                 if cell["verdict"] not in (*good, "not-applicable"):
                     self.assertIn(cell["method"], cell["why"])

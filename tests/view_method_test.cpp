@@ -70,6 +70,9 @@ TEST_F(MethodPanel, SaysWhichDirectionsAreNotMinusV) {
   auto momentum = titles("accelerated-polyak");
   EXPECT_GE(momentum["Support along the momentum"], 3);
   EXPECT_EQ(momentum.count("Support along Newton's direction"), 0u);
+  auto smoothed = titles("accelerated-smoothed");
+  EXPECT_GE(smoothed["Support along the smoothed direction"], 1);
+  EXPECT_GE(smoothed["Support towards the origin"], 2);
   EXPECT_EQ(titles("2d-ellipses-apart").count("Support along the momentum"), 0u);
 }
 

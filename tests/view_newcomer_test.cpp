@@ -19,7 +19,7 @@ const Kind* kind_at(const Session& s, std::size_t step) {
 
 /// Also where no v says which one it is, or where it is not -v.
 TEST_F(Newcomer, SeesTheNextDirectionAfterACut) {
-  for (const char* name : {"boolean-hit-3d", "boolean-hit-2d", "boolean-miss-3d", "accelerated-polyak", "accelerated-newton", "box-box-deep", "obb-edge-edge"}) {
+  for (const char* name : {"boolean-hit-3d", "boolean-hit-2d", "boolean-miss-3d", "accelerated-polyak", "accelerated-newton", "accelerated-smoothed", "box-box-deep", "obb-edge-edge"}) {
     app.open_gallery(name);
     int cuts = 0;
     for (std::size_t i = 0; i < session.count(); ++i) {

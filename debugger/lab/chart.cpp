@@ -201,6 +201,7 @@ void measure_family(const ChartFamily& family, const std::vector<Reference>& ref
 }
 
 /// The ways of GJK that the ladder compares.
+constexpr int ladder_ways = 5;
 Method ladder_method(int way, double distance) {
   Method method;
   method.name = way == 0 ? MethodName::gjk : MethodName::gjk_accelerated;
@@ -211,7 +212,7 @@ Method ladder_method(int way, double distance) {
 }
 
 LadderPoint ladder_point(const std::string& shapes, const std::vector<Scene>& scenes, const Pairs& pairs, double distance, int way, int rounds) {
-  static constexpr const char* names[] = {"plain", "Nesterov", "Polyak", "Newton"};
+  static constexpr const char* names[ladder_ways] = {"plain", "Nesterov", "Polyak", "Newton", "smoothed"};
   LadderPoint point;
   point.shapes = shapes, point.method = names[way], point.distance = distance;
   double sum = 0, squares = 0;
@@ -228,9 +229,9 @@ LadderPoint ladder_point(const std::string& shapes, const std::vector<Scene>& sc
 }
 
 // How long each takes, beside a method on a family.
-constexpr double weight_of_rung = 1, weight_of_motion = 1, rungs_of_ladder = 4 * (7 + 8);
+constexpr double weight_of_rung = 1, weight_of_motion = 1, rungs_of_ladder = ladder_ways * (7 + 8);
 
-/// GJK's iterations by distance, with plain steps, both momenta and Newton's directions, stopped where the paper stops: at a duality gap 2 v.(v - w) of 1e-8. With the
+/// GJK's iterations by distance, with plain steps, with momentum, Newton's directions and smoothed ones, stopped where the paper stops: at a duality gap 2 v.(v - w) of 1e-8. With the
 /// plane's bound p = v.w / |v| that is |v| - p <= 5e-9 / |v|, relative to |v| a tolerance of 5e-9 / |v|^2. False: stopped.
 bool ladder(bool quick, int rounds, Work& work, std::vector<LadderPoint>& out) {
   struct Rung { double distance; std::optional<std::array<double, 2>> plain, nesterov; };
@@ -240,7 +241,7 @@ bool ladder(bool quick, int rounds, Work& work, std::vector<LadderPoint>& out) {
   for (const Rung& rung : rungs) {
     const std::vector<Scene> scenes = ladder_ellipsoids(quick ? 60 : 400, rung.distance);
     const Pairs pairs = prepared(scenes, Scalar::double_precision);
-    for (int way = 0; way < 4; ++way) {
+    for (int way = 0; way < ladder_ways; ++way) {
       out.push_back(ladder_point("ellipsoids", scenes, pairs, rung.distance, way, rounds));
       if (way < 2) out.back().published = way == 0 ? rung.plain : rung.nesterov;
       if (!work.done(weight_of_rung)) return false;
@@ -250,7 +251,7 @@ bool ladder(bool quick, int rounds, Work& work, std::vector<LadderPoint>& out) {
     for (const double distance : {0.001, 1.0}) {
       const std::vector<Scene> scenes = hull_pairs(quick ? 5 : 20, hull.vertices, distance);
       const Pairs pairs = prepared(scenes, Scalar::double_precision);
-      for (int way = 0; way < 4; ++way) {
+      for (int way = 0; way < ladder_ways; ++way) {
         out.push_back(ladder_point("hulls of " + std::to_string(hull.vertices), scenes, pairs, distance, way, rounds));
         out.back().vertices = hull.vertices;
         if (way < 2 && distance < 0.1) out.back().published_nanoseconds = way == 0 ? hull.plain : hull.nesterov;

@@ -35,7 +35,7 @@ std::string in_double(const std::string& method) { return method.substr(0, metho
 /// A colour a method: the scalar is told by the dash. Colour-blind safe (Okabe and Ito), peers in greys.
 Style style_of(const std::string& method) {
   static constexpr std::pair<const char*, const char*> colours[] = {
-      {"signed volumes", "#0072B2"}, {"Johnson", "#D55E00"}, {"Voronoi regions", "#009E73"}, {"accelerated", "#CC79A7"}, {"Polyak", "#E69F00"},     {"Newton", "#882255"},
+      {"signed volumes", "#0072B2"}, {"Johnson", "#D55E00"}, {"Voronoi regions", "#009E73"}, {"accelerated", "#CC79A7"}, {"Polyak", "#E69F00"},     {"Newton", "#882255"}, {"smoothed", "#117733"},
       {"MPR", "#56B4E9"},            {"SAT", "#B8A800"},     {"closed form", "#7B3294"},     {"projections", "#B2182B"}, {"fastest", "#6BBF00"}, {"rule of", "#8A6D3B"}, {"Bullet", "#222222"},     {"FCL", "#555555"},
       {"libccd GJK", "#777777"},     {"libccd MPR", "#999999"}, {"ODE", "#BBBBBB"},          {"Box2D", "#8C8450"},       {"plain", "#0072B2"},      {"Nesterov", "#CC79A7"},
       {"conservative-advancement", "#0072B2"}, {"root-finding", "#009E73"}, {"ray-cast", "#D55E00"}, {"explicit-euler", "#999999"}, {"semi-implicit-euler", "#E69F00"}, {"rk4", "#882255"}};
@@ -216,12 +216,12 @@ std::string ladder_picture(const Chart& chart, const std::string& terminal, cons
       distances.push_back(p.distance);
     }
   const auto rung = [&](const LadderPoint& p) { return static_cast<double>(std::find(distances.begin(), distances.end(), p.distance) - distances.begin()); };
-  const std::vector<std::string> ways{"plain", "Nesterov", "Polyak", "Newton"};
+  const std::vector<std::string> ways{"plain", "Nesterov", "Polyak", "Newton", "smoothed"};
   std::vector<Curve> ellipsoids, hulls, times;
   for (std::size_t way = 0; way < ways.size(); ++way) {
     Curve curve{ways[way], style_of(ways[way]), {}, Curve::Drawn::line_and_deviations}, published{ways[way] + ", published", style_of(ways[way]), {}, Curve::Drawn::squares};
     Curve near{ways[way], style_of(ways[way]), {}, Curve::Drawn::line_and_deviations}, far{ways[way] + ", 1 apart", {near.style.colour, true}, {}}, near_time{ways[way], near.style, {}}, far_time = far, published_time = published;
-    const double aside = 0.05 * (static_cast<double>(way) - 1.5);
+    const double aside = 0.05 * (static_cast<double>(way) - 2);
     for (const LadderPoint& p : chart.ladder) {
       if (p.method != ways[way]) continue;
       if (p.vertices == 0) {

@@ -28,6 +28,7 @@ std::vector<Variant> variants(bool in_atlas) {
     add("accelerated", MethodName::gjk_accelerated);
     add("Polyak", MethodName::gjk_accelerated).acceleration = Acceleration::polyak;
     add("Newton", MethodName::gjk_accelerated).acceleration = Acceleration::newton;
+    add("smoothed", MethodName::gjk_accelerated).acceleration = Acceleration::smoothed;
     add("MPR", MethodName::mpr);
     add("SAT", MethodName::sat);
     add("closed form", MethodName::closed_form);

@@ -186,11 +186,11 @@ struct Explain : ExplainMotion {
 
   /// Of a direction of GJK's, and why it is not -v where it is not.
   std::pair<const char*, const char*> way(const AnyVector& direction) const {
-    const Settings& s = recording.settings;
     const AnyVector* v = led() ? closest_before() : nullptr;
     if (foreign(recording)) return {"The solver's next support", ""};
     if (!v || (direction.normalized() + v->normalized()).norm() < 1e-12) return {"Support towards the origin", ""};
-    if (s.acceleration == Acceleration::newton) return {"Support along Newton's direction", "The curvature of the bodies at the last supports tells where the plane farthest from the origin should lie: across d, not across v. "};
+    if (recording.settings.acceleration == Acceleration::newton) return {"Support along Newton's direction", "The curvature of the bodies at the last supports tells where the plane farthest from the origin should lie: across d, not across v. "};
+    if (recording.settings.acceleration == Acceleration::smoothed) return {"Support along the smoothed direction", "So early, -v swings from side to side: d lies between it and the direction of the best plane so far. "};
     return {"Support along the momentum", "d keeps some of the directions before it, and is not -v alone. "};
   }
 

@@ -12,7 +12,7 @@ constexpr std::pair<const char*, std::uint32_t> peers[] = {{"Bullet", 0x8c8f96},
 
 /// A colour a method, whatever the scalar; other libraries in quieter ones.
 Colour colour_of(const std::string& method, const Palette& p) {
-  static constexpr std::pair<const char*, std::uint32_t> ours[] = {{"signed volumes", 0x3d8fe0}, {"Johnson", 0xe0663a}, {"Voronoi regions", 0x2fae83}, {"accelerated", 0xd07ab5}, {"Polyak", 0xdca11d},      {"Newton", 0xb8446e},
+  static constexpr std::pair<const char*, std::uint32_t> ours[] = {{"signed volumes", 0x3d8fe0}, {"Johnson", 0xe0663a}, {"Voronoi regions", 0x2fae83}, {"accelerated", 0xd07ab5}, {"Polyak", 0xdca11d},      {"Newton", 0xb8446e}, {"smoothed", 0x4f9d69},
                                                                    {"MPR", 0x62b8e8},            {"SAT", 0xa8a032},     {"closed form", 0xb07cc6},     {"projections", 0xd64550}, {"plain", 0x3d8fe0},       {"Nesterov", 0xd07ab5},
                                                                    {"conservative", 0x3d8fe0},   {"root-finding", 0x2fae83}, {"ray-cast", 0xe0663a},   {"explicit", 0x8c8f96},    {"semi-implicit", 0xdca11d}, {"rk4", 0xb8446e}};
   for (const auto& [name, value] : ours)
@@ -151,7 +151,7 @@ void families(App& app, ImVec2 at, ImVec2 size, bool by_gap) {
 
 // --- Iterations by distance -------------------------------------------------------------------------------------------------
 
-const std::vector<std::string> ladder_ways{"plain", "Nesterov", "Polyak", "Newton"};
+const std::vector<std::string> ladder_ways{"plain", "Nesterov", "Polyak", "Newton", "smoothed"};
 
 /// A value of a rung, its deviation (0: not drawn) and the published one beside it.
 struct RungValue {

@@ -127,7 +127,7 @@ struct PseudoCodeOf {
   PseudoCode gjk(int line) const {
     if (boolean()) return {"GJK, boolean form", {"W = { support(d) };  d = -w", "repeat", "  w = support(d)", "  if w short of O: apart", "  W = { w } + W", "  W, d = region of O, way to O", "  if W encloses O: overlap"}, line};
     const bool yes_or_no = recording.scene.scene.query == Query::intersect;
-    const char* support = settings.name != MethodName::gjk_accelerated ? "  w = support(-v)" : settings.acceleration == Acceleration::newton ? "  w = support(Newton's d or -v)" : "  w = support(momentum's d or -v)";
+    const char* support = settings.name != MethodName::gjk_accelerated ? "  w = support(-v)" : settings.acceleration == Acceleration::newton ? "  w = support(Newton's d or -v)" : settings.acceleration == Acceleration::smoothed ? "  w = support(best plane's d - v, or -v)" : "  w = support(momentum's d or -v)";
     return {foreign(recording) ? "GJK, distance form; yours may differ" : "GJK, distance form",
             {settings.start == Start::previous ? "W = last simplex, or { support(d) }" : "w = support(d);  W = { w }", "repeat", "  v = point of W nearest O", "  W = the part of W that holds v",
              yes_or_no ? "  if |v| <= radii: overlap" : "  if v = O: overlap", support, yes_or_no ? "  if w short of O: apart" : rounded(recording.scene.scene) ? "  if w no farther along -v: |v| - radii" : "  if w no farther along -v: |v|", "  W = { w } + W"},

@@ -152,7 +152,7 @@ TEST(Need, TheFastestMethodGoesByTheBodies) {
   fastest.name = MethodName::fastest;
   const auto chosen = [&](const char* name, const Method& method) { return resolve_settings(method, read_scene(gallery.file(name)).scene).name; };
   EXPECT_EQ(chosen("cast-rotating-rod", fastest), MethodName::conservative_advancement);
-  const std::pair<const char*, MethodName> expected[] = {{"box-box-deep", MethodName::sat}, {"pair-sphere-sphere", MethodName::closed_form}, {"1d-overlap", MethodName::closed_form}, {"pair-sphere-box", MethodName::projections}, {"pair-ellipsoid-ellipsoid", MethodName::gjk_accelerated}, {"pair-cone-ellipsoid", MethodName::projections}, {"sat-polygons-apart", MethodName::sat}, {"2d-deep", MethodName::sat}, {"pair-cone-hull", MethodName::gjk}};
+  const std::pair<const char*, MethodName> expected[] = {{"box-box-deep", MethodName::sat}, {"pair-sphere-sphere", MethodName::closed_form}, {"1d-overlap", MethodName::closed_form}, {"pair-sphere-box", MethodName::projections}, {"pair-ellipsoid-ellipsoid", MethodName::gjk_accelerated}, {"pair-cone-ellipsoid", MethodName::projections}, {"sat-polygons-apart", MethodName::sat}, {"2d-deep", MethodName::sat}, {"pair-cone-hull", MethodName::gjk}, {"pair-box-hull", MethodName::gjk_accelerated}};
   for (const auto& [name, method] : expected) {
     EXPECT_EQ(chosen(name, fastest), method) << name;
     const Scene scene = read_scene(gallery.file(name)).scene;
@@ -163,6 +163,8 @@ TEST(Need, TheFastestMethodGoesByTheBodies) {
     EXPECT_EQ(allocations_of(scene, settings, Query::penetration), 0) << name;
 #endif
   }
+  EXPECT_EQ(resolve_settings(fastest, read_scene(gallery.file("pair-ellipsoid-ellipsoid")).scene).acceleration, Acceleration::newton);
+  EXPECT_EQ(resolve_settings(fastest, read_scene(gallery.file("pair-box-hull")).scene).acceleration, Acceleration::smoothed);
   fastest.closest_point = ClosestPoint::johnson;
   EXPECT_EQ(chosen("box-box-deep", fastest), MethodName::gjk) << "a setting of GJK's asks for GJK";
 }

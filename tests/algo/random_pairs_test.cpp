@@ -297,6 +297,60 @@ TEST(RandomPairs, NewtonsDirectionsAnswerAsThePlainOnes) {
   std::printf("two ellipsoids: %d steps, plain %d\n", newton_steps, plain_steps);
 }
 
+/// Nothing but fewer supports of polytopes.
+TEST(RandomPairs, SmoothedDirectionsAnswerAsThePlainOnes) {
+  RandomScenes random(16);
+  for (int k = 0; k < pairs_asked(20000) / 4; ++k) {
+    const int dimension = k % 4 == 0 ? 2 : 3;
+    const Scene scene = random.scene(dimension, static_cast<Family>(k / 4 % family_count), false);
+    SCOPED_TRACE(where(dimension, static_cast<Family>(k / 4 % family_count), k));
+    Method method;
+    method.scalar = k % 3 == 0 ? Scalar::float_precision : Scalar::double_precision;
+    const Settings plainly = resolve_settings(method, scene);
+    method.name = MethodName::gjk_accelerated, method.acceleration = Acceleration::smoothed;
+    const Settings led = resolve_settings(method, scene);
+    const Result plain = solve(scene, plainly), found = solve(scene, led);
+    const double band = rounding_floor(scene, plainly), slack = 1e-12 * size_of(scene) + 4 * band;
+    ASSERT_TRUE(std::isfinite(*found.signed_distance));
+    EXPECT_LE(*found.lower_bound, *plain.upper_bound + slack);
+    EXPECT_GE(*found.upper_bound, *plain.lower_bound - slack);
+    if (plain.status == "converged" && found.status == "converged") {
+      EXPECT_NEAR(*found.signed_distance, *plain.signed_distance, 2 * plainly.tolerance * (std::abs(*plain.signed_distance) + size_of(scene)) + slack);
+    }
+    Scene yes_or_no = scene;
+    yes_or_no.query = Query::intersect;
+    if (std::abs(*plain.signed_distance) > 2 * slack) {
+      EXPECT_EQ(solve(yes_or_no, led).intersecting, plain.intersecting);
+    }
+    if (testing::Test::HasFailure()) break;
+  }
+}
+
+TEST(RandomPairs, SmoothedDirectionsTakeFewerSupports) {
+  RandomScenes random(17);
+  const auto vector = [&] { return AnyVector(Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)).normalized()); };
+  int plain = 0, smoothed = 0;
+  for (int k = 0; k < 300; ++k) {
+    Scene scene;
+    scene.dimension = 3;
+    for (const char* name : {"A", "B"}) {
+      PointSet hull{PointSetKind::hull, {}, {}};
+      for (int i = 0; i < 32; ++i) hull.points.push_back(vector());
+      scene.bodies.push_back({name, {hull, 0}, identity_pose(3)});
+    }
+    scene.bodies[1].pose.position = vector() * 3;
+    const Result far = answer(scene, Query::penetration);
+    scene.bodies[1].pose.position -= *far.normal * (*far.signed_distance - 0.05);
+    Method method;
+    method.name = MethodName::gjk_accelerated, method.acceleration = Acceleration::smoothed;
+    const Result r = solve(scene, resolve_settings(method, scene));
+    EXPECT_NEAR(*r.signed_distance, 0.05, 1e-12) << "pair " << k;
+    plain += answer(scene, Query::penetration).support_calls, smoothed += r.support_calls;
+  }
+  EXPECT_LT(smoothed, 0.85 * plain);
+  std::printf("hulls of 32 vertices: %d supports, plain %d\n", smoothed, plain);
+}
+
 /// A ball, as an ellipsoid, nearly touches an edge: |v| rounds by far more than its square's last digits, and that must not end the search.
 TEST(RandomPairs, NearlyTouchedEdgesDoNotStall) {
   RandomScenes random(15);

@@ -109,7 +109,7 @@ TEST(Check, OurOwnRecordingsOfRandomScenesAreClean) {
     file.scene = random.scene(1 + k % 3, static_cast<Family>(k / 3 % family_count), k % 2 == 0);
     file.scene.query = static_cast<Query>(k % 4);
     file.method.closest_point = static_cast<ClosestPoint>(k / 7 % 3);
-    if (k / 5 % 3 == 0) file.method.name = MethodName::gjk_accelerated, file.method.acceleration = static_cast<Acceleration>(k / 15 % 3);
+    if (k / 5 % 3 == 0) file.method.name = MethodName::gjk_accelerated, file.method.acceleration = static_cast<Acceleration>(k / 15 % 4);
     if (file.scene.query == Query::intersect && k % 8 < 4) file.method.name = MethodName::gjk_boolean;
     if (k % 11 == 0) file.method.name = MethodName::mpr;
     if (k % 13 == 0 && k % 2 == 0) file.method.name = MethodName::sat;
@@ -385,7 +385,7 @@ TEST(Check, KnowsWhatMomentumAndJoltsRuleAskFor) {
   for (int k = 0; k < 6000; ++k) {
     SceneFile file;
     file.scene = random.scene(2 + k % 2, static_cast<Family>(k / 3 % family_count), k % 2 == 0);
-    if (k % 2 == 0) change_name(file.method, MethodName::gjk_accelerated), file.method.acceleration = static_cast<Acceleration>(k / 2 % 3);
+    if (k % 2 == 0) change_name(file.method, MethodName::gjk_accelerated), file.method.acceleration = static_cast<Acceleration>(k / 2 % 4);
     else file.method.stopping = Stopping::jolt;
     file.scene.query = Query::distance;
     EXPECT_EQ(text(check(record(file))), "") << "scene " << k;
