@@ -39,7 +39,7 @@ struct GjkProgress {
 ///   hulls of 100           7.7  5.3    4.3  3.6    5.0  4.2
 ///
 /// One step instead of two takes up to 0.8 more; three, and 2 or 3 parts of the best direction to one of -v, up to 0.3 more in some rows and less in others.
-/// Round shapes, whose steps are many, gain nothing.
+/// Round shapes near each other or a hull ask for 0.85 to 0.95 as many.
 template <class Difference, bool leads>
 class LeadingDirection {
   static constexpr int D = Difference::D;

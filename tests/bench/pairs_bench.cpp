@@ -172,8 +172,8 @@ void register_family(const std::string& name, const Source& source) {
   add("yes-no", MethodName::gjk, Query::intersect);
   const auto made_of = [&](std::initializer_list<std::string_view> families) { return std::any_of(families.begin(), families.end(), [&](auto f) { return name.starts_with(f); }); };
   if (made_of({"boxes", "faces-touching", "slivers", "size-ratio", "offset-1e5", "rectangles", "octagons"})) add("sat", MethodName::sat);
+  if (made_of({"curved", "ellipsoids", "hulls", "size", "gap"})) add("fastest", MethodName::fastest);
   if (made_of({"curved", "ellipsoids"})) {
-    add("fastest", MethodName::fastest);
     for (const auto& [method, which] : {std::pair("at-1e-6", MethodName::gjk), std::pair("fastest-at-1e-6", MethodName::fastest)}) {
       Method m;
       m.name = which, m.tolerance = 1e-6;
