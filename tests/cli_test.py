@@ -103,7 +103,8 @@ class Program(unittest.TestCase):
 
     def test_the_fastest_methods_recordings_go_through_every_command(self):
         files = {}
-        for path in sorted((ROOT / "recordings/gallery").glob("*.scene.json"))[:: 5 if SANITIZED else 1]:
+        scenes = sorted((ROOT / "recordings/gallery").glob("*.scene.json"))
+        for path in [p for i, p in enumerate(scenes) if not SANITIZED or i % 5 == 0 or p.name.startswith("closed-form")]:
             name = path.name.removesuffix(".scene.json")
             out = self.path / f"{name}.recording.json"
             if run("dump", name, "--name", "fastest", "-o", out).returncode != 2:  # 2: the scene asks for what only GJK has
