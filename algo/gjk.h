@@ -219,11 +219,14 @@ class Gjk {
     weighed_ = true;
   }
 
-  /// Whether the simplex alone settles the matter.
+  /// Whether what is known settles the matter.
   [[gnu::always_inline]] bool ended() {
     if (enclosed_) return end_as(GjkStatus::enclosed);
     if (distance_ <= floor_) return end_as(GjkStatus::touching);
-    if (options_.goal != GjkGoal::signed_distance && distance_ + floor_ <= difference_.radius()) return end_as(GjkStatus::within_radius);
+    if (options_.goal != GjkGoal::signed_distance) {
+      if (distance_ + floor_ <= difference_.radius()) return end_as(GjkStatus::within_radius);
+      if (options_.goal == GjkGoal::intersect && lower_bound_ > difference_.radius()) return end_as(GjkStatus::separated);  // by the first plane
+    }
     if (iterations_ >= options_.max_iterations) return end_as(GjkStatus::iteration_limit);
     return false;
   }

@@ -146,6 +146,27 @@ TEST(Need, NoMethodAllocates) {
   for (const MethodName name : {MethodName::gjk, MethodName::gjk_boolean, MethodName::mpr, MethodName::sat, MethodName::projections}) EXPECT_GT(counted[static_cast<std::size_t>(name)], 40) << word_of(name);
 }
 
+/// The plane of the first support is a proof like any other.
+TEST(Need, YesOrNoIsToldByTheFirstPlaneThatSeparates) {
+  const Gallery gallery = read_gallery(GJKDBG_GALLERY);
+  for (const char* name : {"box-box-apart", "pair-hull-hull", "accelerated-smoothed", "2d-ellipses-apart"}) {
+    Scene scene = read_scene(gallery.file(name)).scene;
+    scene.query = Query::penetration;
+    const double gap = *solve(scene, resolve_settings({}, scene)).signed_distance;
+    scene.bodies[1].pose.position += (scene.bodies[1].pose.position - scene.bodies[0].pose.position).normalized() * (20 + std::abs(gap));  // far beyond all that turns aside
+    for (const MethodName method : {MethodName::gjk, MethodName::gjk_accelerated}) {
+      Method by;
+      by.name = method;
+      scene.query = Query::intersect;
+      const Result r = solve(scene, resolve_settings(by, scene));
+      EXPECT_FALSE(r.intersecting) << name;
+      EXPECT_EQ(r.status, "separated") << name;
+      EXPECT_EQ(r.support_calls, 1) << name;
+    }
+    EXPECT_EQ(counts_of(scene, Query::intersect).supports, 1) << name << ": as traced";
+  }
+}
+
 TEST(Need, TheFastestMethodGoesByTheBodies) {
   const Gallery gallery = read_gallery(GJKDBG_GALLERY);
   Method fastest;
