@@ -1,4 +1,5 @@
-// The penetration query of two convex polygons in the plane, from the poses to the answer in one piece, as algo/box_query.h is that of two boxes.
+// The penetration query of two convex polygons in the plane, from the poses to the answer in one piece, as algo/box_query.h is that of two boxes: the same
+// numbers PairSolver comes to.
 #pragma once
 
 #include "algo/polygon_sat.h"
@@ -6,61 +7,88 @@
 
 namespace gjkdbg {
 
+template <class S>
+class PolygonQuery;
+#ifdef GJKDBG_AVX2
+/// PolygonQuery::solve where the first points that the best edge leads to are proven. False: `result` means nothing.
+bool solved_by_avx2(const PolygonQuery<double>& query, const PlacedAxes<2>& pose_a, const PlacedAxes<2>& pose_b, Result& result);
+#endif
+
 template <class S_>
-struct PolygonQuery {
+class PolygonQuery {
+ public:
   using S = S_;
   using V = Vector<2, S>;
 
-  Polygon<S> a, b;
-  Vector<2, double> reference_a, reference_b;  ///< of the cores, times `scale`, as all lengths but the poses'
-  S extents;                                   ///< added
-  double radius_a, radius_b;
-  double scale;
-
-  /// Nothing for other shapes. Keeps pointers to the cores.
-  static std::optional<PolygonQuery> of(const Convex<2, S>& a, const Convex<2, S>& b, double scale) {
-    const auto *core_a = std::get_if<PolygonCore<S>>(&a.core()), *core_b = std::get_if<PolygonCore<S>>(&b.core());
-    if (!core_a || !core_b) return std::nullopt;
-    return PolygonQuery{core_a->polygon(), core_b->polygon(), a.reference(), b.reference(), static_cast<S>(a.extent() + b.extent()), a.radius(), b.radius(), scale};
+  /// Whether a query of these can be made: two polygons, or one and a box of which no side is zero.
+  static bool answers(const Convex<2, S>& a, const Convex<2, S>& b) {
+    const auto is_polygon = [](const Convex<2, S>& body) { return std::holds_alternative<PolygonCore<S>>(body.core()); };
+    return (is_polygon(a) || is_polygon(b)) && (is_polygon(a) || solid_box<2, S>(a)) && (is_polygon(b) || solid_box<2, S>(b));
   }
+  /// Keeps pointers to the cores, which are made for `scale`.
+  PolygonQuery(const Convex<2, S>& a, const Convex<2, S>& b, double scale)
+      : a_(a), b_(b), reference_a_(a.reference()), reference_b_(b.reference()), extents_(static_cast<S>(a.extent() + b.extent())), radius_a_(a.radius()),
+        radius_b_(b.radius()), scale_(scale) {}
 
   /// False: GJK has the last word, and `result` means nothing.
-  [[gnu::flatten]] bool solve(const PlacedAxes<2>& pose_a, const PlacedAxes<2>& pose_b, Result& result) const {
-    Placed placed{relative_pose<2, S>(pose_a, reference_a, pose_b, reference_b, scale)};
-    const V& p = placed.pose.position;
-    const S floor = placed.floor = rounding_floor_of(extents, p[0] * p[0] + p[1] * p[1]);
+  bool solve(const PlacedAxes<2>& pose_a, const PlacedAxes<2>& pose_b, Result& result) const {
+#ifdef GJKDBG_AVX2
+    if constexpr (sizeof(S) == 8)
+      if (__builtin_cpu_supports("avx2") && solved_by_avx2(*this, pose_a, pose_b, result)) return true;
+#endif
+    return solve_by_sat(pose_a, pose_b, result);
+  }
+
+  const Polygon<S>& a() const { return *a_.polygon; }
+  const Polygon<S>& b() const { return *b_.polygon; }
+
+  struct Placed {
+    RelativePose<2, S> pose;
+    S floor;  ///< of rounding
+  };
+  Placed placed(const PlacedAxes<2>& pose_a, const PlacedAxes<2>& pose_b) const {
+    const RelativePose<2, S> pose = relative_pose<2, S>(pose_a, reference_a_, pose_b, reference_b_, scale_);
+    return {pose, rounding_floor_of(extents_, pose.position[0] * pose.position[0] + pose.position[1] * pose.position[1])};
+  }
+  SatAnswer<2, S> answer(const PlacedAxes<2>& pose_a, S floor) const { return {WorkingFrame<2, S>(pose_a, reference_a_, scale_), radius_a_, radius_b_, floor}; }
+
+ private:
+  [[gnu::flatten, gnu::noinline]] bool solve_by_sat(const PlacedAxes<2>& pose_a, const PlacedAxes<2>& pose_b, Result& result) const {
+    Difference difference{placed(pose_a, pose_b)};
     NoTrace trace;
-    PolygonSat<Placed, NoTrace> sat(placed, a, b, trace);
+    PolygonSat<Difference, NoTrace> sat(difference, a(), b(), trace);
     const SatResult<2, S>& found = sat.run(std::numeric_limits<S>::infinity());
-    const SatAnswer<2, S> answer{WorkingFrame<2, S>(pose_a, reference_a, scale), radius_a, radius_b, floor};
+    const S floor = difference.at.floor;
     if (sat.gap()) {
-      answer.set(result, *sat.gap());
+      answer(pose_a, floor).set(result, *sat.gap());
     } else {
-      if (found.status != SatStatus::overlapping) return false;
-      const auto witnesses = sat.witnesses();
-      if (!witnesses) return false;
-      answer.set(result, {witnesses->a, witnesses->b, found.normal, -found.depth, -found.depth - floor});
+      if (!sat.witnesses()) return false;
+      answer(pose_a, floor).set(result, {sat.witnesses()->a, sat.witnesses()->b, found.normal, -found.depth, -found.depth - floor});
     }
     result.status = word_of(found.status);
-    result.iterations = found.iterations, result.support_calls = placed.heights;
+    result.iterations = found.iterations, result.support_calls = difference.heights;
     return true;
   }
 
- private:
   /// What PolygonSat asks of a MinkowskiDifference.
-  struct Placed {
+  struct Difference {
     static constexpr int D = 2;
     using S = S_;
-    RelativePose<2, S> pose;
-    S floor = 0;
+    Placed at;
     int heights = 0;
 
-    S rounding_floor() const { return floor; }
-    const Matrix<2, S>& rotation() const { return pose.rotation; }
-    const V& position() const { return pose.position; }
+    S rounding_floor() const { return at.floor; }
+    const Matrix<2, S>& rotation() const { return at.pose.rotation; }
+    const V& position() const { return at.pose.position; }
     void count_supports(int more) { heights += more; }
     S radius() const { return 0; }  ///< of a trace only
   };
+
+  const PolygonOf<S> a_, b_;
+  const Vector<2, double> reference_a_, reference_b_;  ///< of the cores, times `scale_`, as all lengths but the poses'
+  const S extents_;                                    ///< added
+  const double radius_a_, radius_b_;
+  const double scale_;
 };
 
 }  // namespace gjkdbg

@@ -10,10 +10,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <utility>
 
 #include "algo/box_sat.h"
-#include "algo/polygon_separation.h"
+#include "algo/polygon_points.h"
 #include "algo/sat.h"
 
 namespace gjkdbg {
@@ -48,59 +47,24 @@ class PolygonSat {
   [[gnu::flatten]] const SatResult<2, S>& run(S enough) {
     enough_ = enough + floor_;
     trace_(SatBegan<V, Viewed>{pair_.a.size(), pair_.b.size(), 0});
-    const auto [place, corner, separation] = widest();
+    GreatestOfFours<S> widest;
+    if (!separates<true>(widest)) separates<false>(widest);
     if constexpr (!traced<Trace>) difference_.count_supports(result_.iterations);  // an axis is a support of which only the height is wanted
-    const int of_a = 4 * pair_.a.count();
-    of_a_ = place < of_a;
-    edge_ = std::min(of_a_ ? place : place - of_a, face().size() - 1);
-    corner_ = corner;
-    result_.normal = in_a(of_a_, face().normal(edge_));
-    result_.depth = separation == 0 ? 0 : -separation;
-    result_.status = separation > floor_ ? SatStatus::separated : separation < -floor_ ? SatStatus::overlapping : SatStatus::undecided;
-    if (result_.status == SatStatus::undecided && cross().met) result_.status = SatStatus::overlapping;  // by points of both, within rounding
-    if (result_.status == SatStatus::undecided || (result_.status == SatStatus::separated && separation <= enough)) gap_ = find_gap();
-    if (gap_) result_.status = SatStatus::separated;
+    const auto [place, separation] = widest.found();
+    const int edge = static_cast<int>(place), of_a = 4 * pair_.a.count();
+    if (edge < of_a) conclude<true>(std::min(edge, pair_.a.size() - 1), separation, enough);
+    else conclude<false>(std::min(edge - of_a, pair_.b.size() - 1), separation, enough);
     trace_(SatEnded<V, Viewed>{result_.iterations, result_.status, result_.normal,
                                static_cast<double>(-result_.depth) - static_cast<double>(difference_.radius())});
     return result_;
   }
 
-  /// Of polygons that overlap. Unset where rounding has the last word.
-  std::optional<SatWitnesses<2, S>> witnesses() const {
-    const Crossing found = cross();
-    if (!found.met) return std::nullopt;
-    return of_a_ ? SatWitnesses<2, S>{found.on_edge, found.other} : SatWitnesses<2, S>{pair_.to_a(found.other), pair_.to_a(found.on_edge)};
-  }
-
+  /// Of polygons that overlap. Unset where rounding has the last word, and where a yes or no was asked for.
+  const std::optional<SatWitnesses<2, S>>& witnesses() const { return witnesses_; }
   /// Of polygons that are apart, but by no more than enough. Unset where it is not proven.
   const std::optional<NearestPoints<2, S>>& gap() const { return gap_; }
 
  private:
-  const Polygon<S>& face() const { return of_a_ ? pair_.a : pair_.b; }
-  const Polygon<S>& opposite() const { return of_a_ ? pair_.b : pair_.a; }
-  /// Points of the opposite polygon in the best edge's axes, and back.
-  V to_face(const V& p) const { return of_a_ ? pair_.to_a(p) : pair_.to_b(p); }
-  V to_opposite(const V& p) const { return of_a_ ? pair_.to_b(p) : pair_.to_a(p); }
-  /// A direction out of A, or of B, as one from A to B, in A's axes.
-  V in_a(bool of_a, const V& n) const { return of_a ? n : V(-(pair_.rotation * n)); }
-
-  WidestSeparation<S> widest() {
-    const bool all = enough_ == std::numeric_limits<S>::infinity();
-#ifdef GJKDBG_AVX2
-    if constexpr (!traced<Trace> && sizeof(S) == 8)
-      if (all && __builtin_cpu_supports("avx2")) {
-        result_.iterations = pair_.a.size() + pair_.b.size();
-        return widest_by_avx2(pair_);
-      }
-#endif
-    GreatestOfFours<S> widest;
-    if (!separates<true>(widest)) separates<false>(widest);
-    const auto [place, separation] = widest.found();
-    const int i = static_cast<int>(place), of_a = 4 * pair_.a.count();
-    const int corner = i < of_a ? pair_.b.lowest(pair_.rotation.transpose() * pair_.a.normal(i)) : pair_.a.lowest(pair_.rotation * pair_.b.normal(i - of_a));
-    return {i, corner, separation};
-  }
-
   /// Looks along all edges of one polygon, or until one of them says enough.
   template <bool of_a>
   bool separates(GreatestOfFours<S>& widest) {
@@ -117,7 +81,7 @@ class PolygonSat {
     for (int i = first; i < std::min(first + 4, polygon.size()); ++i) {
       const S apart = separation[static_cast<std::size_t>(i - first)];
       ++result_.iterations;
-      if constexpr (traced<Trace>) trace_axis(source, in_a(source == AxisSource::face_a, polygon.normal(i)), apart);
+      if constexpr (traced<Trace>) trace_axis(source, source == AxisSource::face_a ? polygon.normal(i) : V(-(pair_.rotation * polygon.normal(i))), apart);
       if (apart > enough_) return true;
     }
     return false;
@@ -133,67 +97,55 @@ class PolygonSat {
                                  static_cast<double>(most_traced_ - floor_) - radius, std::numeric_limits<double>::quiet_NaN()});
   }
 
-  /// A point on the best edge's line and one of the opposite polygon, both in the edge's axes, apart along its normal.
-  struct Crossing {
-    V on_edge, other;
-    bool met;  ///< whether both are points of their polygons; if not, `on_edge` is the end of the edge nearest to the corner
-    int end;   ///< the edge's, at `on_edge`
-  };
-
-  Crossing cross() const {
-    const Polygon<S>&edges = face(), &corners = opposite();
-    const V n = edges.normal(edge_), out = n * result_.depth, here = edges.corner(edge_), edge = edges.corner(edges.next(edge_)) - here;
-    const V other = to_face(corners.corner(corner_));
-    const S along = edge.dot(other - here);
-    if (along >= 0 && along <= edge.dot(edge)) return {other + out, other, true, edge_};
-    const int end = along < 0 ? edge_ : edges.next(edge_);
-    const V tip = edges.corner(end), across = to_opposite(tip - out);
-    return {tip, V(tip - out), near(corners.nearest_beside(across, corner_), across), end};
-  }
-
-  /// Across the best edge, or by projections: see above.
-  std::optional<NearestPoints<2, S>> find_gap() {
-    const Crossing start = cross();
-    if (start.met) {
-      const auto [a, b] = of_a_ ? std::pair(start.on_edge, start.other) : std::pair(pair_.to_a(start.other), pair_.to_a(start.on_edge));
-      return NearestPoints<2, S>{a, b, result_.normal, -result_.depth, -result_.depth - floor_};
+  /// What the edge found leads to.
+  template <bool of_a>
+  void conclude(int edge, S separation, S enough) {
+    const V out = (of_a ? pair_.a : pair_.b).normal(edge), turned = of_a ? V(pair_.rotation.transpose() * out) : V(pair_.rotation * out);
+    const int corner = (of_a ? pair_.b : pair_.a).lowest(turned);
+    result_.normal = of_a ? out : V(-turned);
+    result_.depth = separation == 0 ? 0 : -separation;
+    const bool apart = separation > floor_, overlapping = separation < -floor_;
+    result_.status = apart ? SatStatus::separated : overlapping ? SatStatus::overlapping : SatStatus::undecided;
+    if (apart ? separation > enough : overlapping && std::isfinite(enough)) return;  // yes or no
+    const EdgeAndCorner<of_a, S> nearest(pair_, edge, corner, separation);
+    const PolygonPoints<S> points = nearest.is_across() ? nearest.points_across() : nearest.points_at_end(floor_);
+    if (points.across && apart) {
+      gap_ = NearestPoints<2, S>{points.a, points.b, result_.normal, separation, separation - floor_};
+    } else if (points.across) {
+      witnesses_ = SatWitnesses<2, S>{points.a, points.b};
+      result_.status = SatStatus::overlapping;  // within rounding, too: by points of both
+    } else if (!overlapping) {
+      gap_ = find_gap(points);
+      if (gap_) result_.status = SatStatus::separated;
     }
-    int at_a = of_a_ ? start.end : corner_, at_b = of_a_ ? corner_ : start.end;  // where to look from
-    V a = of_a_ ? start.on_edge : pair_.a.nearest(pair_.to_a(start.on_edge), at_a);
-    for (int round = 8; round > 0; --round) {
-      const V b = pair_.to_a(pair_.b.nearest(pair_.to_b(a), at_b)), before = std::exchange(a, pair_.a.nearest(b, at_a));
-      ++result_.iterations;
-      if constexpr (traced<Trace>) trace_projection(a, b);
-      if (near(a, before)) return proven_gap(a, b);
+  }
+
+  /// From points at the end of the edge, by projections if need be: see above.
+  std::optional<NearestPoints<2, S>> find_gap(const PolygonPoints<S>& from) {
+    V a = from.a, b = from.b;
+    int at_a = from.at_a, at_b = from.at_b;
+    std::optional<NearestPoints<2, S>> gap = proven_gap(pair_, a, b, floor_);
+    if (gap) count_projection(a, b);
+    for (int round = 8; round > 0 && !gap; --round) {
+      b = pair_.to_a(pair_.b.nearest(pair_.to_b(a), at_b)), a = pair_.a.nearest(b, at_a);
+      count_projection(a, b);
+      gap = proven_gap(pair_, a, b, floor_);
     }
-    return std::nullopt;
+    if (gap) result_.normal = gap->normal, result_.depth = -gap->distance;
+    return gap;
   }
 
-  std::optional<NearestPoints<2, S>> proven_gap(const V& a, const V& b) {
-    const S distance = (b - a).norm();
-    if (!(distance > floor_)) return std::nullopt;
-    const V n = (b - a) / distance;
-    const S plane = separation(n);
-    if (distance - plane > 2 * floor_) return std::nullopt;
-    result_.normal = n, result_.depth = -distance;
-    return NearestPoints<2, S>{a, b, n, distance, plane - floor_};
-  }
-
-  /// Along any unit direction.
-  S separation(const V& n) const {
-    const V in_b = pair_.rotation.transpose() * n;
-    const Polygon<S>&a = pair_.a, &b = pair_.b;
-    return n.dot(pair_.position) + in_b.dot(b.corner(b.highest(-in_b))) - n.dot(a.corner(a.highest(n)));
+  void count_projection(const V& a, const V& b) {
+    ++result_.iterations;
+    if constexpr (traced<Trace>) trace_projection(a, b);
   }
 
   void trace_projection(const V& a, const V& b) {
-    const S distance = (b - a).norm(), plane = distance > 0 ? separation(V((b - a) / distance)) : S(0);
+    const S distance = (b - a).norm(), plane = distance > 0 ? separation_along(pair_, V((b - a) / distance)) : S(0);
     const double radius = static_cast<double>(difference_.radius());
     trace_(PointsProjected<V, Viewed>{result_.iterations, a, b, V(a - b), static_cast<double>(std::max(plane, -result_.depth) - floor_) - radius,
                                       static_cast<double>(distance + floor_) - radius});
   }
-
-  bool near(const V& p, const V& q) const { return ((p - q).cwiseAbs().array() <= floor_).all(); }
 
   Difference& difference_;
   Trace& trace_;
@@ -201,10 +153,8 @@ class PolygonSat {
   const PolygonPair<S> pair_;
   S enough_ = 0;
   S most_traced_ = -std::numeric_limits<S>::infinity();
-  bool of_a_ = true;  ///< the best edge's polygon
-  int edge_ = 0;      ///< the best edge
-  int corner_ = 0;    ///< the opposite polygon's, nearest to its line
   SatResult<2, S> result_;
+  std::optional<SatWitnesses<2, S>> witnesses_;
   std::optional<NearestPoints<2, S>> gap_;
 };
 

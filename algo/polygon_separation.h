@@ -50,16 +50,4 @@ Four<S> separations(const PolygonFour<S>& edges, const PolygonPair<S>& pair) {
   return separation;
 }
 
-/// The widest separation of all edges of A from B, then of B from A.
-template <class S>
-struct WidestSeparation {
-  int place;   ///< of the edge among those of A and then of B, in fours: those that fill up a four stand for the last edge
-  int corner;  ///< the other polygon's, nearest to the edge's line; the first of several
-  S separation;
-};
-
-#ifdef GJKDBG_AVX2
-WidestSeparation<double> widest_by_avx2(const PolygonPair<double>& pair);
-#endif
-
 }  // namespace gjkdbg

@@ -15,7 +15,8 @@ class Prepared final : public PreparedPair {
   Prepared(const Body& a, const Body& b, double scale)
       : a_(a.shape, scale), b_(b.shape, scale), pose_a_(a.pose), pose_b_(b.pose), scale_(scale), features_a_(a.shape, D), features_b_(b.shape, D),
         segment_a_(core_segment(a_)), segment_b_(core_segment(b_)), boxes_(BoxQuery<D, S>::of(a_, b_, scale)) {
-    if constexpr (D == 2) polygons_ = PolygonQuery<S>::of(a_, b_, scale);
+    if constexpr (D == 2)
+      if (PolygonQuery<S>::answers(a_, b_)) polygons_.emplace(a_, b_, scale);
   }
 
   Result run(const Settings& settings, Query query) override {

@@ -44,6 +44,10 @@ class Polygon {
   const PolygonFour<S>& four(int i) const { return fours_[i]; }
   V corner(int i) const { return at(i, &PolygonFour<S>::corner); }
   V normal(int i) const { return at(i, &PolygonFour<S>::normal); }
+  /// Asks for what will be looked at, before it is known where.
+  void fetch() const {
+    for (const auto *line = reinterpret_cast<const char*>(fours_), *end = reinterpret_cast<const char*>(fours_ + count()); line < end; line += 64) __builtin_prefetch(line);
+  }
   int next(int i) const { return i + 1 == size_ ? 0 : i + 1; }
   int previous(int i) const { return i == 0 ? size_ - 1 : i - 1; }
 
@@ -57,6 +61,19 @@ class Polygon {
       heights.take(height);
     }
     return static_cast<int>(heights.found().place);
+  }
+
+  /// How high along d the lowest corner lies.
+  S least_height(const V& d) const {
+    using Values = typename Four<S>::Values;
+    Values least = Values{} + std::numeric_limits<S>::infinity();
+    for (int i = 0; i < count(); ++i) {
+      const auto& [x, y] = fours_[i].corner;
+      for (int part = 0; part < Four<S>::parts; ++part) least = lesser_of<S>(x.part[part] * d[0] + y.part[part] * d[1], least);
+    }
+    S lowest = least[0];
+    for (int k = 1; k < Four<S>::width; ++k) lowest = std::min(lowest, least[k]);
+    return lowest;
   }
 
   /// The corner lowest along d; of several as low, the first.

@@ -1,4 +1,4 @@
-#include "algo/polygon_separation.h"
+#include "algo/polygon_query.h"
 
 #ifdef GJKDBG_AVX2
 #include "shapes/fours_avx2.h"
@@ -6,6 +6,7 @@
 namespace gjkdbg {
 namespace {
 
+/// What `separations` says of four edges after four, and the greatest of it.
 struct Widest {
   __m256d most, from;
   __m256i four;
@@ -13,8 +14,8 @@ struct Widest {
   [[gnu::target("avx2"), gnu::always_inline]] inline Widest()
       : most(_mm256_set1_pd(-std::numeric_limits<double>::infinity())), from(_mm256_setzero_pd()), four(_mm256_setzero_si256()) {}
 
-  /// Of n fours of edges together, so that every corner is looked up once.
-  template <bool of_a, int n>
+  /// Of n fours of edges together, so that every corner is looked up once. `known`: how many fours of corners there are, or 0.
+  template <bool of_a, int n, int known = 0>
   [[gnu::target("avx2"), gnu::always_inline]] inline void take(const PolygonFour<double>* edges, const PolygonPair<double>& pair) {
     __m256d x[n], y[n], to_x[n], to_y[n], nearest[n];
     const Matrix<2, double>& r = pair.rotation;
@@ -26,7 +27,8 @@ struct Widest {
       to_y[i] = _mm256_add_pd(_mm256_mul_pd(of_a ? r01 : r10, x[i]), _mm256_mul_pd(r11, y[i]));
       nearest[i] = _mm256_set1_pd(std::numeric_limits<double>::infinity());
     }
-    for (int j = 0; j < other.count(); ++j) {
+    const int count = known > 0 ? known : other.count();
+    for (int j = 0; j < count; ++j) {
       const auto& [corner_x, corner_y] = other.four(j).corner;
       for (std::size_t k = 0; k < 4; ++k) {
         const __m256d at_x = _mm256_broadcast_sd(corner_x.data() + k), at_y = _mm256_broadcast_sd(corner_y.data() + k);
@@ -50,6 +52,18 @@ struct Widest {
     for (; i + 2 <= polygon.count(); i += 2) take<of_a, 2>(&polygon.four(i), pair);
     if (i < polygon.count()) take<of_a, 1>(&polygon.four(i), pair);
   }
+
+  /// The edge with the widest separation: its place among those of A and then of B, in fours; those that fill up a four stand for the last.
+  [[gnu::target("avx2"), gnu::always_inline]] inline GreatestOfFours<double>::Found of(const PolygonPair<double>& pair) {
+    if (pair.a.count() == 2 && pair.b.count() == 2) {  // five to eight corners: no loops
+      take<true, 2, 2>(&pair.a.four(0), pair);
+      take<false, 2, 2>(&pair.b.four(0), pair);
+    } else {
+      take_all<true>(pair);
+      take_all<false>(pair);
+    }
+    return found_by_avx2(most, _mm256_castpd_si256(from));
+  }
 };
 
 /// Polygon::lowest.
@@ -68,21 +82,49 @@ struct Widest {
   return 0;
 }
 
+/// Of an edge of A (`of_a`) or of B; false where PolygonSat must look.
+template <bool of_a>
+[[gnu::target("avx2"), gnu::always_inline]] inline bool concluded(const PolygonPair<double>& pair, int edge, double separation, const SatAnswer<2, double>& answer, Result& result) {
+  using V = Vector<2, double>;
+  const double floor = answer.floor;
+  const bool apart = separation > floor;
+  if (!apart && separation >= -floor) return false;
+  const Matrix<2, double>& r = pair.rotation;
+  const V out = (of_a ? pair.a : pair.b).normal(edge);
+  const V turned(r(0, 0) * out[0] + r(!of_a ? 0 : 1, of_a ? 0 : 1) * out[1], r(of_a ? 0 : 1, !of_a ? 0 : 1) * out[0] + r(1, 1) * out[1]);
+  const auto say = [&](const PolygonPoints<double>& points, const V& normal) {
+    answer.set(result, {points.a, points.b, normal, separation, separation - floor});
+    result.status = word_of(apart ? SatStatus::separated : SatStatus::overlapping);
+    result.iterations = result.support_calls = pair.a.size() + pair.b.size();
+    return true;
+  };
+  // Each ending by itself: brought together they take a sixth longer.
+  const EdgeAndCorner<of_a, double> nearest(pair, edge, lowest(of_a ? pair.b : pair.a, turned[0], turned[1]), separation);
+  if (nearest.is_across()) return say(nearest.points_across(), of_a ? out : V(-turned));
+  const PolygonPoints<double> points = nearest.points_at_end(floor);
+  if (points.across) return say(points, of_a ? out : V(-turned));
+  if (!apart) return false;
+  const auto gap = proven_gap(pair, points.a, points.b, floor);
+  if (!gap) return false;
+  answer.set(result, *gap);
+  result.status = word_of(SatStatus::separated);
+  result.support_calls = pair.a.size() + pair.b.size();
+  result.iterations = result.support_calls + 1;
+  return true;
+}
+
 }  // namespace
 
-[[gnu::target("avx2")]] WidestSeparation<double> widest_by_avx2(const PolygonPair<double>& pair) {
-  Widest widest;
-  widest.take_all<true>(pair);
-  widest.take_all<false>(pair);
-  const auto [found, separation] = found_by_avx2(widest.most, _mm256_castpd_si256(widest.from));
-  const int place = static_cast<int>(found), of_a = 4 * pair.a.count();
-  const Matrix<2, double>& r = pair.rotation;
-  if (place < of_a) {
-    const Vector<2, double> n = pair.a.normal(place);
-    return {place, lowest(pair.b, r(0, 0) * n[0] + r(1, 0) * n[1], r(0, 1) * n[0] + r(1, 1) * n[1]), separation};
-  }
-  const Vector<2, double> n = pair.b.normal(place - of_a);
-  return {place, lowest(pair.a, r(0, 0) * n[0] + r(0, 1) * n[1], r(1, 0) * n[0] + r(1, 1) * n[1]), separation};
+[[gnu::target("avx2"), gnu::flatten]] bool solved_by_avx2(const PolygonQuery<double>& query, const PlacedAxes<2>& pose_a, const PlacedAxes<2>& pose_b, Result& result) {
+  const Polygon<double>&a = query.a(), &b = query.b();
+  a.fetch(), b.fetch();
+  const auto [pose, floor] = query.placed(pose_a, pose_b);
+  const PolygonPair<double> pair{a, b, pose.rotation, pose.position};
+  const SatAnswer<2, double> answer = query.answer(pose_a, floor);
+  const auto [place, separation] = Widest().of(pair);
+  const int edge = static_cast<int>(place), of_a = 4 * a.count();
+  return edge < of_a ? concluded<true>(pair, std::min(edge, a.size() - 1), separation, answer, result)
+                     : concluded<false>(pair, std::min(edge - of_a, b.size() - 1), separation, answer, result);
 }
 
 }  // namespace gjkdbg
