@@ -57,11 +57,12 @@ RelativePose<D, S> relative_pose(const PlacedAxes<D>& pose_a, const Vector<D, do
   using Two = DoubleDouble;
   Two offset[D];
   for (int i = 0; i < D; ++i) offset[i] = Two::two_sum(pose_b.position[i] * scale, -(pose_a.position[i] * scale));
-  if (!reference_a.isZero(0) || !reference_b.isZero(0))  // all of it or nothing: which of these numbers are zero is nothing a processor can guess
-    for (int j = 0; j < D; ++j) {
+  for (int j = 0; j < D; ++j) {
+    if (reference_b[j] != 0)
       for (int i = 0; i < D; ++i) offset[i] = offset[i] + Two::two_product(pose_b.rotation(i, j), reference_b[j]);
+    if (reference_a[j] != 0)
       for (int i = 0; i < D; ++i) offset[i] = offset[i] - Two::two_product(pose_a.rotation(i, j), reference_a[j]);
-    }
+  }
   RelativePose<D, S> relative;
   for (int i = 0; i < D; ++i) {
     const auto axis = pose_a.rotation.col(i);
