@@ -27,8 +27,8 @@ class PolygonQuery {
   }
   /// Keeps pointers to the cores, which are made for `scale`.
   PolygonQuery(const Convex<2, S>& a, const Convex<2, S>& b, double scale)
-      : a_(a), b_(b), reference_a_(a.reference()), reference_b_(b.reference()), extents_(static_cast<S>(a.extent() + b.extent())), radius_a_(a.radius()),
-        radius_b_(b.radius()), scale_(scale) {}
+      : polygon_of_a_(a), polygon_of_b_(b), a_(*polygon_of_a_.polygon), b_(*polygon_of_b_.polygon), reference_a_(a.reference()), reference_b_(b.reference()),
+        extents_(static_cast<S>(a.extent() + b.extent())), radius_a_(a.radius()), radius_b_(b.radius()), scale_(scale) {}
 
   /// False: GJK has the last word, and `result` means nothing.
   bool solve(const PlacedAxes<2>& pose_a, const PlacedAxes<2>& pose_b, Result& result) const {
@@ -39,8 +39,8 @@ class PolygonQuery {
     return solve_by_sat(pose_a, pose_b, result);
   }
 
-  const Polygon<S>& a() const { return *a_.polygon; }
-  const Polygon<S>& b() const { return *b_.polygon; }
+  const Polygon<S>& a() const { return a_; }
+  const Polygon<S>& b() const { return b_; }
 
   struct Placed {
     RelativePose<2, S> pose;
@@ -84,7 +84,8 @@ class PolygonQuery {
     S radius() const { return 0; }  ///< of a trace only
   };
 
-  const PolygonOf<S> a_, b_;
+  const PolygonOf<S> polygon_of_a_, polygon_of_b_;
+  const Polygon<S> a_, b_;
   const Vector<2, double> reference_a_, reference_b_;  ///< of the cores, times `scale_`, as all lengths but the poses'
   const S extents_;                                    ///< added
   const double radius_a_, radius_b_;

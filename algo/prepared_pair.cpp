@@ -13,8 +13,9 @@ template <int D, class S>
 class Prepared final : public PreparedPair {
  public:
   Prepared(const Body& a, const Body& b, double scale)
-      : a_(a.shape, scale), b_(b.shape, scale), pose_a_(a.pose), pose_b_(b.pose), scale_(scale), features_a_(a.shape, D), features_b_(b.shape, D),
-        segment_a_(core_segment(a_)), segment_b_(core_segment(b_)), boxes_(BoxQuery<D, S>::of(a_, b_, scale)) {
+      : pose_a_(a.pose), pose_b_(b.pose), scale_(scale), a_(a.shape, scale), b_(b.shape, scale), segment_a_(core_segment(a_)), segment_b_(core_segment(b_)),
+        features_a_(a.shape, D), features_b_(b.shape, D) {
+    boxes_ = BoxQuery<D, S>::of(a_, b_, scale);
     if constexpr (D == 2)
       if (PolygonQuery<S>::answers(a_, b_)) polygons_.emplace(a_, b_, scale);
   }
@@ -45,14 +46,15 @@ class Prepared final : public PreparedPair {
     return PairSolver<D, S, NoTrace>(a_, b_, pose_a_, pose_b_, scale_, settings, trace, &features_a_, &features_b_, &warm_).run(query);
   }
 
-  Convex<D, S> a_, b_;
+  // What every query looks at, and what is all that some look at, side by side.
   PlacedAxes<D> pose_a_, pose_b_;
   double scale_;
-  WarmStart<D, S> warm_;
-  LateFeatures features_a_, features_b_;
-  std::optional<CoreSegment<D>> segment_a_, segment_b_;  ///< of the closed form
   std::optional<BoxQuery<D, S>> boxes_;
   std::conditional_t<D == 2, std::optional<PolygonQuery<S>>, std::monostate> polygons_;
+  Convex<D, S> a_, b_;
+  std::optional<CoreSegment<D>> segment_a_, segment_b_;  ///< of the closed form
+  WarmStart<D, S> warm_;
+  LateFeatures features_a_, features_b_;
 };
 
 template <int D>
