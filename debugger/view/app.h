@@ -42,6 +42,7 @@ class App {
   std::string stop_when_text; ///< the condition as typed
   std::string stop_when_error;
   char gallery_search[64] = {};  ///< what is looked for in the gallery
+  std::string gallery_shows;      ///< the scene the gallery has gone to
 
   /// Opens a file or a gallery scene; what is wrong is shown in the window.
   void open(const std::filesystem::path& file);

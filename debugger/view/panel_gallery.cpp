@@ -1,5 +1,6 @@
 // The left panel: the gallery in lessons, each scene with a picture of itself.
 #include <algorithm>
+#include <utility>
 
 #include "debugger/view/app.h"
 
@@ -47,10 +48,15 @@ std::vector<std::string> matches(App& app, const std::string& text) {
   return found;
 }
 
-void scene_rows(App& app, const std::vector<std::string>& names) {
+/// `follow`: the list goes to the one that is open, if it is out of sight.
+void scene_rows(App& app, const std::vector<std::string>& names, bool follow) {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, app.theme.px(2)});
-  for (const std::string& name : names)
-    if (scene_row(app, name, app.session.scene().scene.name == name)) app.open_gallery(name);
+  for (const std::string& name : names) {
+    const bool current = app.session.scene().scene.name == name;
+    const bool clicked = scene_row(app, name, current);
+    if (current && follow && !ImGui::IsItemVisible()) ImGui::SetScrollHereY(0.5f);
+    if (clicked) app.open_gallery(name);
+  }
   ImGui::PopStyleVar();
 }
 
@@ -62,12 +68,15 @@ void scenes(App& app, bool entered) {
     const std::string count = found.empty() ? "no scene has it" : std::to_string(found.size()) + (found.size() == 1 ? " scene" : " scenes");
     ImGui::TextColored(vec(theme.palette.text_faint), "%s", count.c_str());
     if (entered && !found.empty()) app.open_gallery(found[0]);
-    return scene_rows(app, found);
+    return scene_rows(app, found, false);
   }
+  // However a scene was opened, its lesson opens, and the list goes there.
+  const bool follow = std::exchange(app.gallery_shows, app.session.scene().scene.name) != app.session.scene().scene.name;
   for (const Lesson& lesson : app.gallery().lessons) {
     ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text));
     const bool holds = std::find(lesson.scenes.begin(), lesson.scenes.end(), app.session.scene().scene.name) != lesson.scenes.end();
-    ImGui::SetNextItemOpen(holds, ImGuiCond_Once);
+    if (holds && follow) ImGui::SetNextItemOpen(true);
+    else ImGui::SetNextItemOpen(false, ImGuiCond_Once);
     const bool open = ImGui::TreeNodeEx(lesson.title.c_str(), ImGuiTreeNodeFlags_SpanAvailWidth | ImGuiTreeNodeFlags_NoTreePushOnOpen);
     ImGui::PopStyleColor();
     if (!open) {
@@ -77,7 +86,7 @@ void scenes(App& app, bool entered) {
     ImGui::PushFont(theme.small);
     wrapped(lesson.text, theme.palette.text_faint);
     ImGui::PopFont();
-    scene_rows(app, lesson.scenes);
+    scene_rows(app, lesson.scenes, follow);
   }
 }
 
