@@ -27,7 +27,14 @@ struct BoxQuery {
     S p[D], squared = 0;
     for (int i = 0; i < D; ++i) p[i] = between.position(i), squared += p[i] * p[i];
     const S floor = rounding_floor_of(extents, squared);
-    const BoxPoints<D, S> found = box_axes<D, S>(half_a, half_b, [&](int i, int j) { return between.turn(i, j); }, p).points(floor);
+    const auto say = [&](const BoxPoints<D, S>& found) __attribute__((always_inline)) { return answered(found, floor, pose_a, result); };
+    const auto axes = box_axes<D, S>(half_a, half_b, [&](int i, int j) { return between.turn(i, j); }, p);
+    if constexpr (D == 3) return axes.said(floor, say);
+    else return say(axes.points(floor));
+  }
+
+ private:
+  [[gnu::always_inline]] bool answered(const BoxPoints<D, S>& found, S floor, const PlacedAxes<D>& pose_a, Result& result) const {
     if (!found.proven) return false;
     NearestPoints<D, S> cores = found;
     cores.lower_bound -= floor;
@@ -37,7 +44,6 @@ struct BoxQuery {
     return true;
   }
 
- private:
   /// relative_pose() of references of zero, number by number.
   struct Between {
     const PlacedAxes<D>&a, &b;
