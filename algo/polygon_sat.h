@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "algo/box_sat.h"
 #include "algo/polygon_points.h"
@@ -126,8 +127,11 @@ class PolygonSat {
     int at_a = from.at_a, at_b = from.at_b;
     std::optional<NearestPoints<2, S>> gap = proven_gap(pair_, a, b, floor_);
     if (gap) count_projection(a, b);
-    for (int round = 8; round > 0 && !gap; --round) {
-      b = pair_.to_a(pair_.b.nearest(pair_.to_b(a), at_b)), a = pair_.a.nearest(b, at_a);
+    bool moved = true;
+    for (int round = 8; round > 0 && moved && !gap; --round) {
+      b = pair_.to_a(pair_.b.nearest(pair_.to_b(a), at_b));
+      const V before = std::exchange(a, pair_.a.nearest(b, at_a));
+      moved = ((a - before).cwiseAbs().array() > floor_).any();
       count_projection(a, b);
       gap = proven_gap(pair_, a, b, floor_);
     }

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "debugger/render/image_file.h"
+#include "debugger/render/picture.h"
 #include "debugger/view/hosts.h"
 
 #define STB_IMAGE_IMPLEMENTATION
@@ -100,6 +101,20 @@ TEST(KeptPictures, AnotherStepIsNoticed) {
   host.app().session.go_to(6);
   host.frame(true), host.frame(true);
   EXPECT_GT(different_share(image, host.image().rgb.data()), 0.004);
+}
+
+TEST(Labels, KeepOffWhatATitleCovers) {
+  Camera camera;
+  camera.flat = true;
+  for (const double covered : {0.0, 40.0}) {
+    Picture picture;
+    picture.labels.push_back({ViewPoint(0, 0.88, 0), "d", {}});  // 18 pixels below the border
+    picture.covered = covered;
+    const auto items = flatten(picture, Projection(camera, {0, 0, 300, 300}));
+    ASSERT_EQ(items.size(), 1u);
+    EXPECT_GE(items.back().points[0].y, covered);
+    EXPECT_LT(items.back().points[0].y, covered + 40);
+  }
 }
 
 }  // namespace

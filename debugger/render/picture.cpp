@@ -129,7 +129,9 @@ std::optional<FlatItem> leader(const LabelBox& box, const Projected& at, const P
 
 std::vector<FlatItem> placed_labels(const Picture& picture, const Projection& project, std::vector<FlatItem> drawn, double scale, std::vector<LabelBox>& taken) {
   for (const PicturePoint& point : picture.kept_free) drawn.push_back(flat_point(point, project));
-  LabelPlaces places(drawn, project.rectangle(), scale);
+  ViewRectangle view = project.rectangle();
+  view.y += picture.covered, view.height -= picture.covered;
+  LabelPlaces places(drawn, view, scale);
   std::vector<FlatItem> out;
   std::vector<const PictureLabel*> in_turn;
   for (const PictureLabel& label : picture.labels) in_turn.push_back(&label);

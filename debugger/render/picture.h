@@ -49,6 +49,7 @@ struct Picture {
   std::vector<PictureLabel> labels;
   std::vector<PicturePoint> kept_free;     ///< not drawn: labels keep off them, for something of the window's lies there
   std::vector<PictureLabel> scale_marks;  ///< small, under everything, never moved apart
+  double covered = 0;                     ///< pixels below the view's upper border: labels keep off them, too, for a title lies there
 
   void line(const ViewPoint& from, const ViewPoint& to, Colour colour, double width = 1.5, Stroke stroke = Stroke::solid) {
     lines.push_back({from, to, colour, width, stroke, false, false});

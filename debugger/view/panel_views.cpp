@@ -217,11 +217,13 @@ void one_view(App& app, const Area& area, const Shown& shown, bool interactive, 
   const Projection projection(camera, {area.x, area.y + header * 0.6, area.width, area.height - header * 0.6});
   const auto make = shown.world ? world_picture : difference_picture;
   const Recording& recording = shown.other ? s.other() : s.recording();
-  const auto items = flatten(make(shown.other ? s.other_meshes() : s.meshes(), recording, shown.other ? s.other_frame() : s.frame(), app.settings, theme.palette, projection), projection, theme.px(theme.marks));
+  const float solid = theme.px(38) * large, faded = theme.px(56) * large;
+  Picture picture = make(shown.other ? s.other_meshes() : s.meshes(), recording, shown.other ? s.other_frame() : s.frame(), app.settings, theme.palette, projection);
+  picture.covered = (solid + faded) / 2 - header * 0.6;
+  const auto items = flatten(picture, projection, theme.px(theme.marks));
   draw_items(draw, items, theme);
   // What is drawn fades out below the title.
   const ImU32 cover = packed(theme.palette.view), clear = packed(theme.palette.view.with_alpha(0));
-  const float solid = theme.px(38) * large, faded = theme.px(56) * large;
   draw->AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + solid}, packed(theme.palette.view.with_alpha(1)));
   draw->AddRectFilledMultiColor({area.x, area.y + solid}, {area.x + area.width, area.y + faded}, cover, cover, clear, clear);
   const ImVec2 title{area.x + theme.px(14), area.y + theme.px(10)};
