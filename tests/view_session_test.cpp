@@ -83,6 +83,33 @@ TEST_F(OpenRun, IsAtTheStepItWasAtAfterUndo) {
   EXPECT_EQ(session.step(), 15u);
 }
 
+/// Through all lessons, and the list goes along.
+TEST_F(OpenRun, LeafsThroughTheGallery) {
+  const auto& lessons = app.gallery().lessons;
+  app.open_gallery(lessons[0].scenes.back());
+  host.press(Key::page_down);
+  EXPECT_EQ(session.title(), lessons[1].scenes.front());
+  host.press(Key::page_up);
+  EXPECT_EQ(session.title(), lessons[0].scenes.back());
+  app.open_gallery(lessons[0].scenes.front());
+  host.press(Key::page_up);
+  EXPECT_EQ(session.title(), lessons[0].scenes.front());
+  EXPECT_EQ(app.notice, "the gallery begins here");
+  const auto scrolled = [] {
+    for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
+      if (std::string_view(window->Name).find("/scenes_") != std::string_view::npos) return window->Scroll.y;
+    return -1.f;
+  };
+  app.left_tab = App::LeftTab::gallery;
+  host.frame(), host.frame(), host.frame();
+  EXPECT_EQ(scrolled(), 0);
+  app.open_gallery(lessons.back().scenes.back());
+  host.frame(), host.frame(), host.frame();
+  EXPECT_GT(scrolled(), 500);
+  host.press(Key::page_down);
+  EXPECT_EQ(app.notice, "the gallery ends here");
+}
+
 TEST_F(OpenRun, StandsStillBehindAnOpenList) {
   session.go_to(3);
   host.click(178, 516);  // the query's list

@@ -40,6 +40,15 @@ void App::open_or_throw(const std::filesystem::path& file) {
 
 void App::open_gallery(const std::string& name) { open(gallery_.file(name)); }
 
+void App::open_beside(int step) {
+  std::vector<std::string> all;
+  for (const Lesson& lesson : gallery_.lessons) all.insert(all.end(), lesson.scenes.begin(), lesson.scenes.end());
+  const auto last = static_cast<std::ptrdiff_t>(all.size()) - 1, at = std::find(all.begin(), all.end(), session.scene().scene.name) - all.begin();
+  const std::ptrdiff_t next = at <= last ? at + step : step > 0 ? 0 : last;
+  if (next >= 0 && next <= last) open_gallery(all[static_cast<std::size_t>(next)]);
+  else note(step > 0 ? "the gallery ends here" : "the gallery begins here");
+}
+
 void App::compare_or_throw(const std::filesystem::path& file) {
   Session read;
   read.open(file);

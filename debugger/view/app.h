@@ -49,6 +49,8 @@ class App {
   /// The same: a scene, a recording, a chart.json or an atlas.json; throws Error.
   void open_or_throw(const std::filesystem::path& file);
   void open_gallery(const std::string& name);
+  /// The gallery's next scene (1) or the one before (-1), through all lessons; of a scene that is not there its first or last.
+  void open_beside(int step);
   /// Another recording beside this one: told by its method where it is of the same scene. Throws Error.
   void compare_or_throw(const std::filesystem::path& file);
   const Gallery& gallery() const { return gallery_; }

@@ -12,12 +12,12 @@ namespace {
 
 #if IMGUI_VERSION_NUM < 18700
 // Before 1.87 keys are the backend's own numbers: GLFW's, for every host here.
-constexpr std::array<int, key_count> codes{262, 263, 46, 44, 268, 269, 32, 66, 77, 91, 93, 70, 86, 71, 84, 79, 83, 90, 89, 47, 290, 256, 69, 76, 67, 78, 81, 88, 292, 257,
+constexpr std::array<int, key_count> codes{262, 263, 46, 44, 268, 269, 32, 66, 77, 91, 93, 70, 86, 71, 84, 79, 83, 90, 89, 47, 290, 256, 69, 76, 67, 78, 81, 88, 292, 257, 266, 267,
                                            49, 50, 51, 52, 53, 54, 55, 56, 57, 321, 322, 323};
 #else
 constexpr std::array<ImGuiKey, key_count> codes{ImGuiKey_RightArrow, ImGuiKey_LeftArrow, ImGuiKey_Period, ImGuiKey_Comma, ImGuiKey_Home, ImGuiKey_End, ImGuiKey_Space,
                                                 ImGuiKey_B, ImGuiKey_M, ImGuiKey_LeftBracket, ImGuiKey_RightBracket, ImGuiKey_F, ImGuiKey_V, ImGuiKey_G, ImGuiKey_T,
-                                                ImGuiKey_O, ImGuiKey_S, ImGuiKey_Z, ImGuiKey_Y, ImGuiKey_Slash, ImGuiKey_F1, ImGuiKey_Escape, ImGuiKey_E, ImGuiKey_L, ImGuiKey_C, ImGuiKey_N, ImGuiKey_Q, ImGuiKey_X, ImGuiKey_F3, ImGuiKey_Enter, ImGuiKey_1, ImGuiKey_2,
+                                                ImGuiKey_O, ImGuiKey_S, ImGuiKey_Z, ImGuiKey_Y, ImGuiKey_Slash, ImGuiKey_F1, ImGuiKey_Escape, ImGuiKey_E, ImGuiKey_L, ImGuiKey_C, ImGuiKey_N, ImGuiKey_Q, ImGuiKey_X, ImGuiKey_F3, ImGuiKey_Enter, ImGuiKey_PageUp, ImGuiKey_PageDown, ImGuiKey_1, ImGuiKey_2,
                                                 ImGuiKey_3, ImGuiKey_4, ImGuiKey_5, ImGuiKey_6, ImGuiKey_7, ImGuiKey_8, ImGuiKey_9, ImGuiKey_Keypad1, ImGuiKey_Keypad2, ImGuiKey_Keypad3};
 #endif
 

@@ -6,7 +6,7 @@
 namespace gjkdbg {
 
 enum class Key {
-  right, left, period, comma, home, end, space, b, m, left_bracket, right_bracket, f, v, g, t, o, s, z, y, slash, f1, escape, e, l, c, n, q, x, f3, enter,
+  right, left, period, comma, home, end, space, b, m, left_bracket, right_bracket, f, v, g, t, o, s, z, y, slash, f1, escape, e, l, c, n, q, x, f3, enter, page_up, page_down,
   digit_1, digit_2, digit_3, digit_4, digit_5, digit_6, digit_7, digit_8, digit_9, pad_1, pad_2, pad_3
 };
 inline constexpr int key_count = static_cast<int>(Key::pad_3) + 1;

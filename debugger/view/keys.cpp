@@ -70,6 +70,8 @@ void App::keys() {
   if (key_pressed(Key::left_bracket)) session.loop = true, session.loop_from = session.step();
   if (key_pressed(Key::right_bracket)) session.loop = true, session.loop_to = session.step();
   if (key_pressed(Key::f3)) find_again(shift_held());
+  if (key_pressed(Key::page_down) && !show_lab) open_beside(1);
+  if (key_pressed(Key::page_up) && !show_lab) open_beside(-1);
   for (int i = 1; i <= 9; ++i)
     if (key_pressed(static_cast<Key>(static_cast<int>(Key::digit_1) + i - 1)) && session.bookmarks.contains(i)) session.go_to(session.bookmarks[i]);
   view_keys();
@@ -111,7 +113,7 @@ void App::key_sheet() {
       {"Right  Left   or   .  ,", "on, back an event"}, {"Shift with them", "an iteration"}, {"Ctrl with them", "a phase"}, {"Home  End", "first, last step"},
       {"Space", "play, pause"}, {"[  ]", "loop from here, to here"}, {"B", "breakpoint here"}, {"M, 1 to 9", "bookmark, go to it"}, {"Ctrl-F, F3, Shift-F3", "find, next, previous"},
       {"Ctrl-G", "go to a step"}, {"F, double click", "fit the views"}, {"Shift-F", "the views as at first"}, {"1 2 3 on the pad", "front, right, top"}, {"V", "side by side, stacked, one view"}, {"L", "link the cameras"},
-      {"G", "gallery or scene"}, {"T", "dark or light"}, {"E", "explain in big letters"}, {"X", "charts and atlas"}, {"Ctrl-O  Ctrl-S", "open, save"}, {"Ctrl-C, Ctrl-Shift-C", "copy the scene: JSON, C++"},
+      {"G", "gallery or scene"}, {"Page Down  Page Up", "next scene, the one before"}, {"T", "dark or light"}, {"E", "explain in big letters"}, {"X", "charts and atlas"}, {"Ctrl-O  Ctrl-S", "open, save"}, {"Ctrl-C, Ctrl-Shift-C", "copy the scene: JSON, C++"},
       {"Ctrl-Z  Ctrl-Y", "undo, redo"}, {"Ctrl-Q", "quit"}, {"drag, right drag, wheel", "orbit, pan, zoom"}, {"click a vertex", "select it in both views"}, {"click a number", "the step it comes from"},
       {"drag a ring A or B", "move the body"}, {"drag its small disc", "turn the body"}};
   const ImVec2 size = ImGui::GetIO().DisplaySize;
