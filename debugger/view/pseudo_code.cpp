@@ -87,7 +87,7 @@ struct PseudoCodeOf {
   PseudoCode operator()(const recorded::PointsProjected&) const {
     if (settings.name == MethodName::projections) return projections(3);
     if (of_two_boxes(recording, step)) return {"SAT, apart across no axis", {"for f in " + facet_name(recording) + "s of A - B that face O", "  v = point of f nearest O", "  keep the shortest v", "v = a - b", "plane across v: nothing is nearer"}, 3};
-    return {"SAT, apart across no axis", {"a = a point of A at the widest gap", "repeat", "  b = point of B nearest a", "  a = point of A nearest b", "until neither moves"}, 3};
+    return {"SAT, apart across no axis", {"a = a point of A at the widest gap", "repeat", "  b = point of B nearest a", "  a = point of A nearest b", "until the plane across proves it"}, 3};
   }
   PseudoCode operator()(const recorded::SatEnded& e) const { return sat(e.status == SatStatus::separated ? 3 : e.status == SatStatus::overlapping ? 5 : no_line); }
 
