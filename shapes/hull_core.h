@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "shapes/convex_hull.h"
+#include "shapes/table_memory.h"
 
 namespace gjkdbg {
 
@@ -42,7 +43,7 @@ class HullCore {
     const int cells = 6 * across_ * across_;
     std::vector<int> spread{0};
     std::vector<int> met(vertices.size(), -1);
-    cells_.resize(static_cast<std::size_t>(cells));
+    std::vector<Cell> table(static_cast<std::size_t>(cells));
     for (int cell = 0; cell < cells; ++cell) {
       spread.assign(1, climb(vertices, hull, spread.front(), direction(cell, S(0.5), S(0.5))));
       met[static_cast<std::size_t>(spread.front())] = cell;
@@ -50,8 +51,9 @@ class HullCore {
       for (std::size_t i = 0; i < spread.size(); ++i)
         for (const int other : around(hull, spread[i]))
           if (std::exchange(met[static_cast<std::size_t>(other)], cell) != cell && highest_somewhere(vertices, hull, other, corners)) spread.push_back(other);
-      keep(static_cast<std::size_t>(cell), vertices, spread);
+      keep(table, static_cast<std::size_t>(cell), vertices, spread);
     }
+    cells_.assign(table.begin(), table.end());
   }
 
   V center() const { return center_; }
@@ -157,20 +159,20 @@ class HullCore {
     }
   };
 
-  void keep(std::size_t cell, const std::vector<V>& vertices, std::span<const int> highest) {
+  static void keep(std::vector<Cell>& table, std::size_t cell, const std::vector<V>& vertices, std::span<const int> highest) {
     for (;;) {
-      for (std::size_t i = 0; i < Cell::places; ++i) cells_[cell].set(i, vertices[static_cast<std::size_t>(highest[std::min(i, highest.size() - 1)])]);
+      for (std::size_t i = 0; i < Cell::places; ++i) table[cell].set(i, vertices[static_cast<std::size_t>(highest[std::min(i, highest.size() - 1)])]);
       if (highest.size() <= Cell::places) return;
       highest = highest.subspan(Cell::places);
-      cells_[cell].next = static_cast<int>(cells_.size());
-      cell = cells_.size();
-      cells_.emplace_back();
+      table[cell].next = static_cast<int>(table.size());
+      cell = table.size();
+      table.emplace_back();
     }
   }
 
   V center_ = V::Zero(), box_;
   int across_;
-  std::vector<Cell> cells_;
+  std::vector<Cell, TableAllocator<Cell>> cells_;
 };
 
 }  // namespace gjkdbg

@@ -3,16 +3,20 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include "shapes/convex.h"
 #include "shapes/convex_hull.h"
 #include "shapes/error.h"
 #include "shapes/obj_file.h"
 #include "shapes/pose.h"
+#include "shapes/table_memory.h"
 #include "tests/support/random_scenes.h"
 
 namespace gjkdbg {
@@ -276,6 +280,25 @@ std::string obj(const std::string& text) {
   }
   std::filesystem::remove(file);
   return out;
+}
+
+TEST(TableMemory, IsAlignedApartAndTakenAgain) {
+  std::vector<std::pair<std::span<unsigned char>, unsigned char>> taken;
+  for (std::size_t i = 0; i < 300; ++i) {
+    const std::size_t bytes = 1 + (i * 7919) % 100000;
+    auto* const memory = static_cast<unsigned char*>(take_table_memory(bytes));
+    ASSERT_EQ(reinterpret_cast<std::uintptr_t>(memory) % 128, 0u);
+    taken.push_back({{memory, bytes}, static_cast<unsigned char>(i)});
+    std::ranges::fill(taken.back().first, taken.back().second);
+  }
+  for (const auto& [memory, value] : taken) ASSERT_TRUE(std::ranges::all_of(memory, [&](unsigned char c) { return c == value; })) << "shared with another";
+  for (const auto& [memory, value] : taken) give_table_memory_back(memory.data(), memory.size());
+  void* const again = take_table_memory(taken.back().first.size());
+  EXPECT_EQ(again, taken.back().first.data());
+  give_table_memory_back(again, taken.back().first.size());
+  std::vector<int, TableAllocator<int>> list(1000, 3);
+  const auto copy = list;
+  EXPECT_EQ(list, copy);
 }
 
 TEST(Obj, IsReadOrRefusedWithItsLine) {
