@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "algo/orientation.h"
-#include "algo/polytope_face.h"
+#include "algo/polytope_planes.h"
 #include "shapes/fours.h"
 
 namespace gjkdbg {
@@ -79,8 +79,7 @@ class Polytope {
   std::span<const Face> faces() const { return {faces_.data(), count_}; }
 
  private:
-  /// Sine of the angle between a face's shorter edges below which its normal is worth less than 1e-13 in double.
-  static constexpr S thin = S(1e-3);
+  static constexpr S thin = thin_sine<S>;
   static constexpr S gone = -std::numeric_limits<S>::infinity();  ///< as nearness: of no face
 
   const V& at(int i) const { return points_[i].w; }
@@ -88,6 +87,8 @@ class Polytope {
   S rounding_of_height() const { return 32 * std::numeric_limits<S>::epsilon() / thin * reach_; }
   void make_room();
   void add_face(const std::array<int, D>& vertices, const std::array<int, D>& neighbours);
+  int add_without_plane(const std::array<int, D>& vertices, const std::array<int, D>& neighbours);
+  void set_fan(int first, int n, int apex, Turn turn);
   void remove(int number);
   static Four<S> nobody() {
     Four<S> four;
@@ -100,12 +101,9 @@ class Polytope {
   void take_place(Face& face, int number) {
     face.place = static_cast<std::uint32_t>(places_);
     numbers_[places_++] = number;
-    offer(face);
   }
   void forget_removed();
   bool sees(int p, const Face& face) const;
-  void set_plane(Face& face) const;
-  void set_plane(Face& face, const V& edge, const V& next) const;
   bool grow_polygon(int p, int seen);
   bool grow_polyhedron(int p, int seen);
   void undo_growth();
@@ -124,6 +122,7 @@ class Polytope {
   std::size_t places_ = 0;         ///< taken
   std::size_t tidy_at_ = 64;       ///< so many places make `nearest` slow
   std::vector<int> walk_;          ///< 3D: edges still to cross, as neighbours are
+  std::vector<int> ring_;          ///< 3D: points around the newest faces' apex, as Fan::ring
   std::vector<int> removed_;
 
   Growth growth_;
@@ -143,57 +142,6 @@ bool Polytope<D, S>::sees(int p, const Face& face) const {
   if constexpr (D == 3) return orientation<S>(at(face.vertices[0]), at(face.vertices[1]), at(face.vertices[2]), at(p)) >= 0;
   if constexpr (D == 2) return orientation<S>(at(face.vertices[0]), at(face.vertices[1]), at(p)) <= 0;
   if constexpr (D == 1) return face.normal[0] * (at(p)[0] - at(face.vertices[0])[0]) >= 0;
-}
-
-/// 3D: n = (b - a) x (c - a); a face too thin for plain arithmetic gets its plane in twice the precision.
-template <int D, class S>
-void Polytope<D, S>::set_plane(Face& face) const {
-  const V& a = at(face.vertices[0]);
-  if constexpr (D == 1) {
-    face.distance = face.normal[0] * a[0];
-  } else if constexpr (D == 2) {
-    const V e = at(face.vertices[1]) - a;
-    const S length = e.norm();
-    face.normal = length > 0 ? V(V(e[1], -e[0]) / length) : V(V::Zero());
-    const V& b = at(face.vertices[1]);
-    face.distance = length > 0 ? face.normal.dot(a.dot(a) < b.dot(b) ? a : b) : std::numeric_limits<S>::infinity();
-  } else {
-    const V &b = at(face.vertices[1]), &c = at(face.vertices[2]);
-    // The two shorter edges, and the corner nearest the origin. Looked up: which it is, is nothing a processor can guess.
-    const V edges[3] = {b - a, c - b, a - c};
-    const S squared[3] = {edges[0].dot(edges[0]), edges[1].dot(edges[1]), edges[2].dot(edges[2])};
-    const std::size_t longest = ((squared[1] >= squared[0]) & (squared[1] >= squared[2])) != 0 ? 1 : 2 * (squared[2] >= squared[0]);
-    constexpr std::size_t after[3] = {1, 2, 0};
-    const std::size_t i = after[longest], j = after[i];
-    V n = edges[i].cross(edges[j]);
-    S length = n.norm();
-    const S da = a.dot(a), db = b.dot(b);
-    const V* const corners[3] = {&a, &b, &c};
-    const V& near = *corners[std::min(da, db) <= c.dot(c) ? db < da : 2];
-    if (length * length > thin * thin * squared[i] * squared[j]) {
-      face.normal = n / length;
-      face.distance = face.normal.dot(near);
-      return;
-    }
-    using W = WideVector<S>;
-    const W exact = W::difference(b, a).cross(W::difference(c, a));
-    const S scale = exact.template rounded<3>().cwiseAbs().maxCoeff();
-    n = exact.template rounded<3>() / (scale > 0 ? scale : S(1));
-    length = n.norm();
-    face.normal = length > 0 ? V(n / length) : V(V::Zero());
-    const Wide<S> along = exact.dot(W(near));
-    face.distance = length > 0 ? static_cast<S>(double(along)) / (scale * length) : std::numeric_limits<S>::infinity();
-  }
-}
-
-/// 3D: with the edges from the face's last vertex to its others at hand.
-template <int D, class S>
-[[gnu::always_inline]] inline void Polytope<D, S>::set_plane(Face& face, const V& edge, const V& next) const {
-  const V n = edge.cross(next);
-  const S area = n.dot(n);
-  if (!(area > thin * thin * (edge.dot(edge) * next.dot(next)))) return set_plane(face);
-  face.normal = n / std::sqrt(area);
-  face.distance = face.normal.dot(at(face.vertices[2]));
 }
 
 // --- The faces there are ----------------------------------------------------------------------------------------
@@ -227,25 +175,52 @@ void Polytope<D, S>::forget_removed() {
 /// A growth adds at most two faces more than it removes, and never has more edges to cross than that.
 template <int D, class S>
 void Polytope<D, S>::make_room() {
-  if (2 * count_ + 4 <= room_) return;
+  if (2 * count_ + 8 <= room_) return;
   const std::size_t room = 4 * count_ + 64;
   faces_.resize(room);
-  numbers_.resize(room), walk_.resize(room), removed_.resize(room);
+  numbers_.resize(room), walk_.resize(room), ring_.resize(room), removed_.resize(room);
   nearness_.resize(room / 4, nobody());
   room_ = room;  // last: an allocation may fail
 }
 
-/// Inline, as is the plane's: numbers handed over in memory are waited for (a tenth of EPA's time; see MinkowskiDifference::support).
 template <int D, class S>
-[[gnu::always_inline]] inline void Polytope<D, S>::add_face(const std::array<int, D>& vertices, const std::array<int, D>& neighbours) {
-  const std::size_t number = count_++;
-  Face& face = faces_[number];
+[[gnu::always_inline]] inline int Polytope<D, S>::add_without_plane(const std::array<int, D>& vertices, const std::array<int, D>& neighbours) {
+  Face& face = faces_[count_];
   face.vertices = vertices, face.neighbours = neighbours;
   face.removed = false;
+  return static_cast<int>(count_++);
+}
+
+template <int D, class S>
+void Polytope<D, S>::add_face(const std::array<int, D>& vertices, const std::array<int, D>& neighbours) {
+  const int number = add_without_plane(vertices, neighbours);
+  Face& face = faces_[number];
   if constexpr (D == 1) face.normal[0] = static_cast<S>(neighbours[0]);
-  if constexpr (D == 3) set_plane(face, at(vertices[0]) - at(vertices[2]), at(vertices[1]) - at(vertices[2]));
-  else set_plane(face);
-  take_place(face, static_cast<int>(number));
+  set_plane<D, S>(face, points_.data());
+  take_place(face, number);
+  offer(face);
+}
+
+/// 3D: the planes of n faces from number `first` on, which are those of a fan around `apex` with ring_.
+template <int D, class S>
+[[gnu::always_inline]] inline void Polytope<D, S>::set_fan(int first, int n, int apex, Turn turn) {
+  for (int i = n; i < n + 4; ++i) ring_[i] = ring_[0];
+  Face* const faces = faces_.data() + first;
+  S* const nearness = reinterpret_cast<S*>(nearness_.data()) + places_;
+  for (int i = 0; i < n; ++i) take_place(faces[i], first + i);
+#ifdef GJKDBG_AVX2
+  if constexpr (sizeof(S) == 8)
+    if (__builtin_cpu_supports("avx2")) {
+      if (set_fan_by_avx2({points_.data(), ring_.data(), n, apex}, turn, faces, nearness)) return;
+      for (int i = 0; i < n; ++i)
+        if (!(faces[i].distance < std::numeric_limits<S>::infinity())) set_plane<D, S>(faces[i], points_.data()), offer(faces[i]);
+      return;
+    }
+#endif
+  for (int i = 0; i < n; ++i) {
+    set_plane<D, S>(faces[i], points_.data());
+    offer(faces[i]);
+  }
 }
 
 template <int D, class S>
@@ -286,12 +261,15 @@ void Polytope<D, S>::start(std::array<int, D + 1> s) {
 template <int D, class S>
 bool Polytope<D, S>::start_octahedron(const std::array<int, 2>& poles, const std::array<int, 4>& ring, S floor) {
   make_room();
-  for (int side = 0; side < 2; ++side)
+  std::copy(ring.begin(), ring.end(), ring_.begin());
+  for (int side = 0; side < 2; ++side) {
     for (int k = 0; k < 4; ++k) {
       const int next = (k + 1) % 4, before = (k + 3) % 4;
-      if (side == 0) add_face({ring[k], ring[next], poles[0]}, {4 * (4 + k), 4 * next + 2, 4 * before + 1});
-      else add_face({ring[next], ring[k], poles[1]}, {4 * k, 4 * (4 + before) + 2, 4 * (4 + next) + 1});
+      if (side == 0) add_without_plane({ring[k], ring[next], poles[0]}, {4 * (4 + k), 4 * next + 2, 4 * before + 1});
+      else add_without_plane({ring[next], ring[k], poles[1]}, {4 * k, 4 * (4 + before) + 2, 4 * (4 + next) + 1});
     }
+    set_fan(4 * side, 4, poles[side], side == 0 ? Turn::around_outer : Turn::around_inner);
+  }
   const S margin = std::max(floor, rounding_of_height());
   bool convex = true;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -368,19 +346,21 @@ bool Polytope<D, S>::grow_polyhedron(int p, int seen) {
     one_loop &= ((from == to) | (number == first)) & (std::exchange(met_[from], growths_) != growths_);
     to = beside.vertices[edge];
     beside.neighbours[edge] = 4 * number;
-    add_face({from, to, p}, {across, 4 * (number + 1) + 2, 4 * (number - 1) + 1});
+    ring_[number - first] = from;
+    add_without_plane({from, to, p}, {across, 4 * (number + 1) + 2, 4 * (number - 1) + 1});
   }
   const int last = static_cast<int>(count_) - 1;
   if (!one_loop || last < first + 2 || to != faces_[first].vertices[0]) return false;
   faces_[first].neighbours[2] = 4 * last + 1;
   faces_[last].neighbours[1] = 4 * first + 2;
+  set_fan(first, last - first + 1, p, Turn::around_outer);
   return true;
 }
 
 /// What was removed stands again; in 3D its neighbours may already know what was to take its place.
 template <int D, class S>
 void Polytope<D, S>::undo_growth() {
-  while (count_ > static_cast<std::size_t>(growth_.first_added)) --count_, set_nearness(--places_, gone);
+  count_ = static_cast<std::size_t>(growth_.first_added);  // they have no places yet
   for (const int number : growth_.removed) {
     Face& face = faces_[number];
     face.removed = false;

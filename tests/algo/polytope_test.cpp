@@ -57,6 +57,48 @@ void expect_sound(Polytope<D, double>& polytope) {
   ASSERT_EQ(faces[static_cast<std::size_t>(nearest)].distance, least);
 }
 
+/// Rings of 3 to 9 points around one more, some with two that are as good as one: the planes are those of the faces one by one, to the bit.
+TEST(Polytope, PlanesOfAFanAreThoseOfItsFaces) {
+#ifdef GJKDBG_AVX2
+  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "needs AVX2";
+  RandomScenes random(8);
+  int thin = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const int n = 3 + trial % 7;
+    std::vector<SupportPoint<3, double>> points(1, point<3>(random_direction<3>(random)));
+    std::vector<int> ring;
+    for (int k = 0; k < n; ++k) {
+      points.push_back(point<3>(random_direction<3>(random)));
+      if (k == 1 && trial % 3 == 0) points.back().w = points[1].w + 1e-9 * points.back().w;
+      ring.push_back(k + 1);
+    }
+    for (int k = 0; k < 4; ++k) ring.push_back(1);
+    for (const Turn turn : {Turn::around_outer, Turn::around_inner}) {
+      std::vector<PolytopeFace<3, double>> faces(static_cast<std::size_t>(n));
+      std::vector<double> nearness(static_cast<std::size_t>(n) + 4, 7);
+      bool all = true;
+      const bool said = set_fan_by_avx2({points.data(), ring.data(), n, 0}, turn, faces.data(), nearness.data());
+      for (std::size_t k = 0; k < faces.size(); ++k) {
+        const V3 &p = points[0].w, from = points[k + 1].w, to = points[(k + 1) % faces.size() + 1].w;
+        PolytopeFace<3, double> one;
+        const bool plain = turn == Turn::around_outer ? set_plane_plainly<double>(one, from - p, to - p, p) : set_plane_plainly<double>(one, to - p, from - p, p);
+        all &= plain, thin += !plain;
+        ASSERT_EQ(plain, std::isfinite(faces[k].distance));
+        ASSERT_EQ(nearness[k], -faces[k].distance);
+        if (!plain) continue;
+        ASSERT_EQ(faces[k].normal, one.normal);
+        ASSERT_EQ(faces[k].distance, one.distance);
+      }
+      ASSERT_EQ(nearness.back(), 7) << "beyond its room";
+      ASSERT_EQ(said, all);
+    }
+  }
+  EXPECT_GT(thin, 500);
+#else
+  GTEST_SKIP() << "needs AVX2";
+#endif
+}
+
 /// Enough growths that storage moves and removed faces are forgotten, several times; twice, as a workspace is used.
 template <int D>
 void grow_from_random_points() {
