@@ -22,8 +22,30 @@ namespace {
 
 }  // namespace
 
+/// The point of A's vertex and B's, whose numbers lie `stride` from one another.
+[[gnu::target("avx2"), gnu::always_inline]] inline void write(SupportPoint<3, double>& point, const RelativePose<3, double>& pose, const __m256d& at_a, const double* b, std::size_t stride) {
+  const __m256d of_b = turned(pose.rotation, _mm256_broadcast_sd(b), _mm256_broadcast_sd(b + stride), _mm256_broadcast_sd(b + 2 * stride));
+  const __m256d at_b = _mm256_add_pd(of_b, three(pose.position.data()));
+  // Four numbers at once, the last of them to be written over, so that any of the three may be read as soon as it is written, one or two at once.
+  _mm256_storeu_pd(point.w.data(), _mm256_sub_pd(at_a, at_b));
+  _mm256_storeu_pd(point.a.data(), at_a);
+  store(point.b.data(), at_b);
+}
+
+/// A table's vertex along d.
+struct Found {
+  const double* x;
+  Vector<3, double> of_several;  ///< where more than a cell was looked at
+  std::size_t stride = HullCore<double>::stride;
+
+  [[gnu::target("avx2"), gnu::always_inline]] inline Found(const HullCore<double>& table, const __m256d& d) : x(table.highest_by_avx2(d)) {
+    if (x == nullptr) [[unlikely]] of_several = table.support(Vector<3, double>(d[0], d[1], d[2])), x = of_several.data(), stride = 1;
+  }
+};
+
 /// What all else waits for is body 1: its direction is turned before, and its point after.
 [[gnu::target("avx2")]] void VerticesPair::support(const RelativePose<3, double>& pose, double x, double y, double z, SupportPoint<3, double>& point) const {
+  if (table_a_ != nullptr) return support_of_tables(pose, x, y, z, point);
   const float size = static_cast<float>(std::abs(x) + std::abs(y) + std::abs(z)) * 1.75F + std::numeric_limits<float>::min();
   const __m256d towards_a = _mm256_xor_pd(_mm256_set1_pd(-0.0), turned(pose.inverse, _mm256_set1_pd(x), _mm256_set1_pd(y), _mm256_set1_pd(z)));
   const __m128 single = _mm256_cvtpd_ps(towards_a);
@@ -37,13 +59,13 @@ namespace {
     d[0] = x, d[1] = y, d[2] = z;
     a.place = a_->settled(a.high, d);
   }
-  const double* const vertex = b_->vertex(b.place);
-  const __m256d of_b = turned(pose.rotation, _mm256_broadcast_sd(vertex), _mm256_broadcast_sd(vertex + 1), _mm256_broadcast_sd(vertex + 2));
-  const __m256d at_a = _mm256_loadu_pd(a_->vertex(a.place)), at_b = _mm256_add_pd(of_b, three(pose.position.data()));
-  // Four numbers at once, the last of them to be written over, so that any of the three may be read as soon as it is written, one or two at once.
-  _mm256_storeu_pd(point.w.data(), _mm256_sub_pd(at_a, at_b));
-  _mm256_storeu_pd(point.a.data(), at_a);
-  store(point.b.data(), at_b);
+  write(point, pose, _mm256_loadu_pd(a_->vertex(a.place)), b_->vertex(b.place), 1);
+}
+
+[[gnu::target("avx2")]] void VerticesPair::support_of_tables(const RelativePose<3, double>& pose, double x, double y, double z, SupportPoint<3, double>& point) const {
+  const Found b(*table_b_, _mm256_xor_pd(_mm256_set1_pd(-0.0), turned(pose.inverse, _mm256_set1_pd(x), _mm256_set1_pd(y), _mm256_set1_pd(z))));
+  const Found a(*table_a_, _mm256_set_pd(0, z, y, x));
+  write(point, pose, _mm256_set_pd(0, a.x[2 * a.stride], a.x[a.stride], a.x[0]), b.x, b.stride);
 }
 
 }  // namespace gjkdbg

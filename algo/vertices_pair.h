@@ -1,4 +1,4 @@
-// The support of the difference of two bodies of some vertices each, from the direction to the point in one piece.
+// The support of the difference of two hulls, from the direction to the point in one piece: of 9 to 32 vertices each, or both with a table of directions.
 //
 // Looked up one body after the other it takes a call each, and the direction and the vertex go through memory on both sides of them: of two hulls of 32
 // vertices that is a third of the instructions.
@@ -25,11 +25,13 @@ class VerticesPair {
 #ifdef GJKDBG_AVX2
     const auto *of_a = eights_of(a), *of_b = eights_of(b);
     if (of_a && of_b && __builtin_cpu_supports("avx2")) a_ = of_a, b_ = of_b, a_->fetch(), b_->fetch();
+    const auto *table_a = table_of(a), *table_b = table_of(b);
+    if (table_a && table_b && __builtin_cpu_supports("avx2")) table_a_ = table_a, table_b_ = table_b;
 #endif
   }
 
 #ifdef GJKDBG_AVX2
-  explicit operator bool() const { return a_ != nullptr; }
+  explicit operator bool() const { return (a_ != nullptr) | (table_a_ != nullptr); }
   /// What MinkowskiDifference::support says, number by number; of vertices as high as one another the one VertexFours::highest takes. All but the point's number.
   /// Not inlined: a caller that is to be flattened (MinkowskiDifference::support) is no code for AVX2.
   [[gnu::noinline]] void support(const RelativePose<3, double>& pose, double x, double y, double z, SupportPoint<3, double>& point) const;
@@ -43,8 +45,15 @@ class VerticesPair {
       if (const auto* core = std::get_if<VerticesCore<3, double>>(&body.core())) return core->eights ? &core->eights : nullptr;
     return nullptr;
   }
+  template <class Body>
+  static const HullCore<double>* table_of(const Body& body) {
+    if constexpr (std::is_same_v<Body, Convex<3, double>>) return std::get_if<HullCore<double>>(&body.core());
+    return nullptr;
+  }
+  void support_of_tables(const RelativePose<3, double>& pose, double x, double y, double z, SupportPoint<3, double>& point) const;
 
   const VertexEights *a_ = nullptr, *b_ = nullptr;
+  const HullCore<double> *table_a_ = nullptr, *table_b_ = nullptr;
 #endif
 };
 

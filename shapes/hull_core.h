@@ -20,11 +20,16 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "shapes/convex_hull.h"
 #include "shapes/table_memory.h"
+#include "shapes/vertex_fours.h"
+#ifdef GJKDBG_AVX2
+#include <immintrin.h>
+#endif
 
 namespace gjkdbg {
 
@@ -40,6 +45,8 @@ class HullCore {
     center_ /= static_cast<S>(vertices.size());
     box_ = (high - low).cwiseMax((high - low).maxCoeff() * std::numeric_limits<S>::epsilon());  // in float a thin hull may have no thickness left
     across_ = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(vertices.size()) / 3)), 1, 128);
+    for (int i = 0; i < 3; ++i) box_and_half_[i] = box_[i];
+    box_and_half_[3] = static_cast<S>(across_) / 2;
     const int cells = 6 * across_ * across_;
     std::vector<int> spread{0};
     std::vector<int> met(vertices.size(), -1);
@@ -71,6 +78,34 @@ class HullCore {
     return best;
   }
 
+#ifdef GJKDBG_AVX2
+  static constexpr std::size_t stride = 5;  ///< from a vertex's x to its y and to its z, in memory
+  /// Where the vertex is that `support` says. d has three numbers and one that is not asked for. Null: `support` has to look at more than one cell.
+  [[gnu::target("avx2"), gnu::always_inline]] inline const S* highest_by_avx2(const __m256d& d) const
+    requires std::is_same_v<S, double>
+  {
+    const __m256d in_box = _mm256_mul_pd(_mm256_loadu_pd(box_and_half_), d), lengths = _mm256_andnot_pd(_mm256_set1_pd(-0.0), in_box);
+    const __m128d xy = _mm256_castpd256_pd128(lengths), z = _mm256_extractf128_pd(lengths, 1), y = _mm_unpackhi_pd(xy, xy), greater = _mm_max_sd(xy, y), most = _mm_max_sd(greater, z);
+    const int first = _mm_comigt_sd(y, xy), axis = first + (2 - first) * _mm_comigt_sd(z, greater);
+    const __m128d half = _mm_load_sd(box_and_half_ + 3);
+    const __m128d scale = _mm_and_pd(_mm_div_sd(half, most), _mm_cmpgt_sd(most, _mm_setzero_pd()));
+    const __m256d across = _mm256_add_pd(_mm256_mul_pd(in_box, _mm256_broadcastsd_pd(scale)), _mm256_broadcastsd_pd(half));
+    alignas(16) int place[4];
+    _mm_store_si128(reinterpret_cast<__m128i*>(place), _mm256_cvttpd_epi32(_mm256_min_pd(_mm256_max_pd(across, _mm256_setzero_pd()), _mm256_set1_pd(static_cast<double>(across_) - 0.5))));
+    constexpr int after[4] = {1, 2, 0, 1};
+    const int negative = _mm256_movemask_pd(_mm256_cmp_pd(d, _mm256_setzero_pd(), _CMP_LT_OQ)) >> axis & 1;
+    const Cell& cell = cells_[static_cast<std::size_t>(((2 * axis + negative) * across_ + place[after[axis]]) * across_ + place[after[axis + 1]])];
+    if (cell.next >= 0) [[unlikely]] return nullptr;
+    const __m256d dx = _mm256_broadcastsd_pd(_mm256_castpd256_pd128(d)), dy = _mm256_permute4x64_pd(d, 0b01010101), dz = _mm256_permute4x64_pd(d, 0b10101010);
+    const __m256d height = _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(_mm256_load_pd(cell.x.data()), dx), _mm256_mul_pd(_mm256_loadu_pd(cell.y.data()), dy)), _mm256_mul_pd(_mm256_loadu_pd(cell.z.data()), dz));
+    const double last = cell.x[4] * d[0] + cell.y[4] * d[1] + cell.z[4] * d[2];
+    const __m256d of_two = _mm256_max_pd(height, _mm256_permute_pd(height, 0b0101)), of_four = _mm256_max_pd(of_two, _mm256_permute2f128_pd(of_two, of_two, 1));
+    const unsigned highest = static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(height, of_four, _CMP_EQ_OQ)));
+    const std::size_t of_first = static_cast<std::size_t>(__builtin_ctz(highest | 16));
+    return cell.x.data() + Cell::chosen(_mm_comigt_sd(_mm_set_sd(last), _mm256_castpd256_pd128(of_four)), 4, of_first);
+  }
+#endif
+
  private:
   static std::span<const int> around(const ConvexHull& hull, int vertex) {
     const auto i = static_cast<std::size_t>(vertex);
@@ -86,7 +121,10 @@ class HullCore {
     const int u = place(d[after[axis]] * scale + half), v = place(d[after[after[axis]]] * scale + half);
     return ((2 * axis + (d[axis] < 0)) * across_ + u) * across_ + v;
   }
-  int place(S x) const { return x < static_cast<S>(across_) ? static_cast<int>(x) : across_ - 1; }  // infinite or NaN: the last
+  int place(S x) const {
+    const S inside = x > 0 ? x : S(0);  // lengths that are nearly none may make it infinite, or NaN
+    return inside < static_cast<S>(across_) ? static_cast<int>(inside) : across_ - 1;
+  }
 
   /// The direction through a place of a cell, (0.5, 0.5) its middle; in the body's lengths, not the box's.
   V direction(int cell, S u, S v) const {
@@ -171,6 +209,7 @@ class HullCore {
   }
 
   V center_ = V::Zero(), box_;
+  S box_and_half_[4];  ///< the box, and half of across_
   int across_;
   std::vector<Cell, TableAllocator<Cell>> cells_;
 };

@@ -171,9 +171,48 @@ TEST(VerticesPair, SaysWhatOneBodyAfterTheOtherSays) {
   EXPECT_EQ(compared, 600 * 200);
 }
 
+/// The same of two tables of directions: of round hulls, flat ones, far-off ones, and prisms, of which a cell has more vertices than it has room for.
+TEST(VerticesPair, SaysWhatOneTableAfterTheOtherSays) {
+  RandomNumbers random(9);
+  for (int k = 0; k < 40; ++k) {
+    const int kind = k % 4;
+    const auto body = [&](int n) {
+      PointSet hull = random_hull_of(n);
+      for (std::size_t i = 0; i < hull.points.size(); ++i) {
+        auto& p = hull.points[i];
+        const double turn = 6.283185307179586 * static_cast<double>(i / 2) / (n / 2);
+        if (kind == 1) p[2] *= 1e-6;
+        if (kind == 2) p += AnyVector(Eigen::Vector3d(1e6, -1e6, 3e5));
+        if (kind == 3) p = AnyVector(Eigen::Vector3d(std::cos(turn), std::sin(turn), i % 2 == 0 ? 1 : -1));
+      }
+      return Convex<3, double>(Shape{hull, 0});
+    };
+    const Convex<3, double> a = body(100 + 37 * k), b = body(1600 - 37 * k);
+    Pose pose_b = identity_pose(3);
+    pose_b.position = AnyVector(random.vector() * 3);
+    if (k % 8 < 4) pose_b.matrix = AnyMatrix(Eigen::AngleAxisd(random.uniform(0, 3), Eigen::Vector3d(random.vector()).normalized()).toRotationMatrix());
+    MinkowskiDifference<3, double, Convex<3, double>> together(a, b, identity_pose(3), pose_b, 1);
+    const AnyBody any_a{a}, any_b{b};
+    MinkowskiDifference<3, double, AnyBody> one_by_one(any_a, any_b, identity_pose(3), pose_b, 1);
+    ASSERT_EQ(static_cast<bool>(VerticesPair(a, b)), __builtin_cpu_supports("avx2") != 0) << k;
+    for (int i = 0; i < 1000; ++i) {
+      Eigen::Vector3d d = random.vector();
+      if (i < 27) d = Eigen::Vector3d(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      if (i % 3 == 1) d = d.normalized() + Eigen::Vector3d::Unit(i % 5 % 3) * random.uniform(-100, 100);
+      if (i % 10 == 9) d *= std::pow(10.0, random.uniform(-323, 150));
+      const auto found = together.support(d), expected = one_by_one.support(d);
+      ASSERT_EQ(found.a, expected.a) << "pair " << k << ", direction " << i << ": " << d.transpose();
+      ASSERT_EQ(found.b, expected.b) << "pair " << k << ", direction " << i;
+      ASSERT_EQ(found.w, expected.w) << "pair " << k << ", direction " << i;
+    }
+  }
+}
+
 /// A number that is none makes no answer, and harms nothing.
-TEST(VerticesPair, TakesWhatIsNoNumber) {
-  const Convex<3, double> a(Shape{random_hull_of(20), 0}), b(Shape{random_hull_of(12), 0});
+class NoNumbers : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(VerticesPair, NoNumbers, testing::Values(20, 300));
+TEST_P(NoNumbers, MakeNoAnswerAndNoHarm) {
+  const Convex<3, double> a(Shape{random_hull_of(GetParam()), 0}), b(Shape{random_hull_of(GetParam() * 3 / 5), 0});
   MinkowskiDifference<3, double, Convex<3, double>> difference(a, b, identity_pose(3), identity_pose(3), 1);
   const double none = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& d : {Eigen::Vector3d(none, 1, 2), Eigen::Vector3d(none, none, none), Eigen::Vector3d(infinite, 0, 1), Eigen::Vector3d(-infinite, infinite, 1), Eigen::Vector3d(0, 0, 0)})
