@@ -45,7 +45,7 @@ struct Found {
 
 /// What all else waits for is body 1: its direction is turned before, and its point after.
 [[gnu::target("avx2")]] void VerticesPair::support(const RelativePose<3, double>& pose, double x, double y, double z, SupportPoint<3, double>& point) const {
-  if (table_a_ != nullptr) return support_of_tables(pose, x, y, z, point);
+  if (a_ == nullptr) return support_of_tables(pose, x, y, z, point);
   const float size = static_cast<float>(std::abs(x) + std::abs(y) + std::abs(z)) * 1.75F + std::numeric_limits<float>::min();
   const __m256d towards_a = _mm256_xor_pd(_mm256_set1_pd(-0.0), turned(pose.inverse, _mm256_set1_pd(x), _mm256_set1_pd(y), _mm256_set1_pd(z)));
   const __m128 single = _mm256_cvtpd_ps(towards_a);

@@ -24,9 +24,11 @@ class VerticesPair {
   VerticesPair([[maybe_unused]] const A& a, [[maybe_unused]] const B& b) {
 #ifdef GJKDBG_AVX2
     const auto *of_a = eights_of(a), *of_b = eights_of(b);
-    if (of_a && of_b && __builtin_cpu_supports("avx2")) a_ = of_a, b_ = of_b, a_->fetch(), b_->fetch();
-    const auto *table_a = table_of(a), *table_b = table_of(b);
-    if (table_a && table_b && __builtin_cpu_supports("avx2")) table_a_ = table_a, table_b_ = table_b;
+    if (of_a && of_b && __builtin_cpu_supports("avx2")) {
+      a_ = of_a, b_ = of_b, a_->fetch(), b_->fetch();
+    } else if (const auto *table_a = table_of(a), *table_b = table_of(b); table_a && table_b && __builtin_cpu_supports("avx2")) {
+      table_a_ = table_a, table_b_ = table_b;
+    }
 #endif
   }
 
@@ -50,7 +52,7 @@ class VerticesPair {
     if constexpr (std::is_same_v<Body, Convex<3, double>>) return std::get_if<HullCore<double>>(&body.core());
     return nullptr;
   }
-  void support_of_tables(const RelativePose<3, double>& pose, double x, double y, double z, SupportPoint<3, double>& point) const;
+  [[gnu::noinline]] void support_of_tables(const RelativePose<3, double>& pose, double x, double y, double z, SupportPoint<3, double>& point) const;
 
   const VertexEights *a_ = nullptr, *b_ = nullptr;
   const HullCore<double> *table_a_ = nullptr, *table_b_ = nullptr;

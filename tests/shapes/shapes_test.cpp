@@ -291,7 +291,7 @@ TEST(TableMemory, IsAlignedApartAndTakenAgain) {
     taken.push_back({{memory, bytes}, static_cast<unsigned char>(i)});
     std::ranges::fill(taken.back().first, taken.back().second);
   }
-  for (const auto& [memory, value] : taken) ASSERT_TRUE(std::ranges::all_of(memory, [&](unsigned char c) { return c == value; })) << "shared with another";
+  for (const auto& [memory, value] : taken) ASSERT_EQ(std::ranges::count(memory, value), std::ssize(memory)) << "shared with another";
   for (const auto& [memory, value] : taken) give_table_memory_back(memory.data(), memory.size());
   void* const again = take_table_memory(taken.back().first.size());
   EXPECT_EQ(again, taken.back().first.data());
