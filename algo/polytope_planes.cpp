@@ -3,8 +3,6 @@
 #ifdef GJKDBG_AVX2
 #include <immintrin.h>
 
-#include <cstddef>
-#include <limits>
 #include <utility>
 
 namespace gjkdbg {

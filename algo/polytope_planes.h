@@ -6,6 +6,11 @@
 //     r_0---r_1---r_2
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
 #include "algo/polytope_face.h"
 
 namespace gjkdbg {

@@ -96,7 +96,7 @@ void SumCore<D, S>::add_derivative(const Matrix<D, S>& axes, const Vector<D, S>&
 
 /// From how many vertices a hull has a table of directions. In the first-level cache the table beats a scan from about 50 on (tests/bench/support_bench);
 /// but it is nine times as large and its places lie apart, and of a thousand pairs met in turn nothing is in that cache. Two hulls of 128
-/// take 0.6 (apart) to 1.0 (deep) of the scan's time with the table where 200 pairs are met in turn, and 0.9 to 1.2 where 1,000 are; of 32, 1.0 to 1.5.
+/// take 0.6 (apart) to 1.0 (deep) of the scan's time with the table where 200 pairs are met in turn, and 0.9 to 1.2 where 1,000 are; of 32, 1.0 to 1.5 (measured with tables in pages of 4 KB).
 inline constexpr int table_from = 100;
 
 /// The shape's size: its largest coordinate, radius, half height or margin, in its own frame; of a sum the larger of both.

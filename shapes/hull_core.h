@@ -84,6 +84,7 @@ class HullCore {
   [[gnu::target("avx2"), gnu::always_inline]] inline const S* highest_by_avx2(const __m256d& d) const
     requires std::is_same_v<S, double>
   {
+    static_assert(stride == Cell::places);
     const __m256d in_box = _mm256_mul_pd(_mm256_loadu_pd(box_and_half_), d), lengths = _mm256_andnot_pd(_mm256_set1_pd(-0.0), in_box);
     const __m128d xy = _mm256_castpd256_pd128(lengths), z = _mm256_extractf128_pd(lengths, 1), y = _mm_unpackhi_pd(xy, xy), greater = _mm_max_sd(xy, y), most = _mm_max_sd(greater, z);
     const int first = _mm_comigt_sd(y, xy), axis = first + (2 - first) * _mm_comigt_sd(z, greater);
