@@ -8,6 +8,13 @@
 namespace gjkdbg {
 
 template <int D, class S>
+struct BoxQuery;
+#ifdef GJKDBG_AVX2
+/// BoxQuery::solve_plainly, with the same bits, where no edges are nearly parallel and the points lie where they mostly do. False: `result` means nothing.
+bool solved_by_avx2(const BoxQuery<3, double>& query, const PlacedAxes<3>& pose_a, const PlacedAxes<3>& pose_b, Result& result);
+#endif
+
+template <int D, class S>
 struct BoxQuery {
   Vector<D, S> half_a, half_b;  ///< times `scale`, as all lengths but the poses'
   S extents;                    ///< added
@@ -22,7 +29,14 @@ struct BoxQuery {
   }
 
   /// False: rounding has the last word, and `result` means nothing.
-  [[gnu::flatten]] bool solve(const PlacedAxes<D>& pose_a, const PlacedAxes<D>& pose_b, Result& result) const {
+  bool solve(const PlacedAxes<D>& pose_a, const PlacedAxes<D>& pose_b, Result& result) const {
+#ifdef GJKDBG_AVX2
+    if constexpr (D == 3 && sizeof(S) == 8)
+      if (__builtin_cpu_supports("avx2") && solved_by_avx2(*this, pose_a, pose_b, result)) return true;
+#endif
+    return solve_plainly(pose_a, pose_b, result);
+  }
+  [[gnu::flatten]] bool solve_plainly(const PlacedAxes<D>& pose_a, const PlacedAxes<D>& pose_b, Result& result) const {
     const Between between(pose_a, pose_b, scale);
     S p[D], squared = 0;
     for (int i = 0; i < D; ++i) p[i] = between.position(i), squared += p[i] * p[i];

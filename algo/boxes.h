@@ -52,6 +52,8 @@ class Boxes {
 
  public:
   static constexpr int axes = 15;  ///< A's faces, B's faces, edges of both
+  /// Of an element of R. 4 u of MinkowskiDifference::rounding_floor, which has room for them: a height of two boxes rounds 6 times, not 10.
+  static constexpr S next_to_zero = 2 * std::numeric_limits<S>::epsilon();
 
   /// Half sizes, none of them zero; `turn(i, j)` an element of B's turn; p, from A's centre to B's, in A's axes.
   template <class Turn>
@@ -118,8 +120,6 @@ class Boxes {
 
  private:
   static constexpr int faces = 6;
-  /// 4 u of MinkowskiDifference::rounding_floor, which has room for them: a height of two boxes rounds 6 times, not 10.
-  static constexpr S next_to_zero = 2 * std::numeric_limits<S>::epsilon();
   static constexpr int next(int i) { return i == 2 ? 0 : i + 1; }
   static S sign(S x) { return std::copysign(S(1), x); }
   static S greater(S x, S y) { return x < y ? y : x; }

@@ -1,35 +1,20 @@
 #include "algo/vertices_pair.h"
 
 #ifdef GJKDBG_AVX2
-#include <immintrin.h>
-
 #include "algo/minkowski_difference.h"
+#include "shapes/three_avx2.h"
 
 namespace gjkdbg {
 namespace {
 
-[[gnu::target("avx2"), gnu::always_inline]] inline __m256d three(const double* v) { return _mm256_set_m128d(_mm_load_sd(v + 2), _mm_loadu_pd(v)); }
-[[gnu::target("avx2"), gnu::always_inline]] inline void store(double* v, __m256d three) {
-  _mm_storeu_pd(v, _mm256_castpd256_pd128(three));
-  _mm_store_sd(v + 2, _mm256_extractf128_pd(three, 1));
-}
-
-/// m v, in the order in which Eigen adds up: of two rows at once from the first column, of the row that is left over from the last.
-[[gnu::target("avx2"), gnu::always_inline]] inline __m256d turned(const Matrix<3, double>& m, __m256d x, __m256d y, __m256d z) {
-  x = _mm256_mul_pd(x, _mm256_loadu_pd(m.data())), y = _mm256_mul_pd(y, _mm256_loadu_pd(m.data() + 3)), z = _mm256_mul_pd(z, three(m.data() + 6));
-  return _mm256_blend_pd(_mm256_add_pd(_mm256_add_pd(x, y), z), _mm256_add_pd(x, _mm256_add_pd(y, z)), 0b0100);
-}
-
-}  // namespace
-
 /// The point of A's vertex and B's, whose numbers lie `stride` from one another.
-[[gnu::target("avx2"), gnu::always_inline]] inline void write(SupportPoint<3, double>& point, const RelativePose<3, double>& pose, const __m256d& at_a, const double* b, std::size_t stride) {
-  const __m256d of_b = turned(pose.rotation, _mm256_broadcast_sd(b), _mm256_broadcast_sd(b + stride), _mm256_broadcast_sd(b + 2 * stride));
-  const __m256d at_b = _mm256_add_pd(of_b, three(pose.position.data()));
+GJKDBG_LANES void write(SupportPoint<3, double>& point, const RelativePose<3, double>& pose, const Lanes& at_a, const double* b, std::size_t stride) {
+  const Lanes of_b = turned(pose.rotation, _mm256_broadcast_sd(b), _mm256_broadcast_sd(b + stride), _mm256_broadcast_sd(b + 2 * stride));
+  const Lanes at_b = _mm256_add_pd(of_b, three(pose.position.data()));
   // Four numbers at once, the last of them to be written over, so that any of the three may be read as soon as it is written, one or two at once.
   _mm256_storeu_pd(point.w.data(), _mm256_sub_pd(at_a, at_b));
   _mm256_storeu_pd(point.a.data(), at_a);
-  store(point.b.data(), at_b);
+  store_three(point.b.data(), at_b);
 }
 
 /// A table's vertex along d.
@@ -38,16 +23,18 @@ struct Found {
   Vector<3, double> of_several;  ///< where more than a cell was looked at
   std::size_t stride = HullCore<double>::stride;
 
-  [[gnu::target("avx2"), gnu::always_inline]] inline Found(const HullCore<double>& table, const __m256d& d) : x(table.highest_by_avx2(d)) {
+  GJKDBG_LANES Found(const HullCore<double>& table, const Lanes& d) : x(table.highest_by_avx2(d)) {
     if (x == nullptr) [[unlikely]] of_several = table.support(Vector<3, double>(d[0], d[1], d[2])), x = of_several.data(), stride = 1;
   }
 };
+
+}  // namespace
 
 /// What all else waits for is body 1: its direction is turned before, and its point after.
 [[gnu::target("avx2")]] void VerticesPair::support(const RelativePose<3, double>& pose, double x, double y, double z, SupportPoint<3, double>& point) const {
   if (a_ == nullptr) return support_of_tables(pose, x, y, z, point);
   const float size = static_cast<float>(std::abs(x) + std::abs(y) + std::abs(z)) * 1.75F + std::numeric_limits<float>::min();
-  const __m256d towards_a = _mm256_xor_pd(_mm256_set1_pd(-0.0), turned(pose.inverse, _mm256_set1_pd(x), _mm256_set1_pd(y), _mm256_set1_pd(z)));
+  const Lanes towards_a = _mm256_xor_pd(_mm256_set1_pd(-0.0), turned(pose.inverse, _mm256_set1_pd(x), _mm256_set1_pd(y), _mm256_set1_pd(z)));
   const __m128 single = _mm256_cvtpd_ps(towards_a);
   const __m256 twice = _mm256_set_m128(single, single);
   VertexEights::Highest a = a_->highest(_mm256_set1_ps(static_cast<float>(x)), _mm256_set1_ps(static_cast<float>(y)), _mm256_set1_ps(static_cast<float>(z)), size);

@@ -1,9 +1,12 @@
 // The separating axes of two boxes against exact arithmetic: parallel, nearly parallel, flat, long, far out, inside one another, with margins.
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <random>
 
+#include "algo/box_query.h"
 #include "recordings/recording.h"
+#include "shapes/convex.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/sat_agreement.h"
 
@@ -189,6 +192,42 @@ TEST(BoxSat, TracesWhatItComputes) {
     }
   }
 }
+
+#ifdef GJKDBG_AVX2
+/// Whatever AVX2 answers is what the plain numbers say, to the bit; and it answers most.
+TEST(BoxSat, FourAtATimeSayTheSameNumbers) {
+  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "no AVX2";
+  BoxPairs pairs;
+  int turned = 0, answered = 0, overlaps = 0, edges = 0;
+  for (int k = 0; k < 40000; ++k) {
+    const Scene scene = pairs.scene(3, k);
+    const double scale = k % 19 == 6 ? 0.25 : 1;
+    const Convex<3, double> a(scene.bodies[0].shape, scale), b(scene.bodies[1].shape, scale);
+    const auto query = BoxQuery<3, double>::of(a, b, scale);
+    if (!query) continue;
+    const PlacedAxes<3> pose_a(scene.bodies[0].pose), pose_b(scene.bodies[1].pose);
+    Result fast, plain;
+    const bool solved = solved_by_avx2(*query, pose_a, pose_b, fast);
+    const bool freely_turned = k % 4 >= 2 && k % 5 != 1 && k % 11 != 3;
+    turned += freely_turned, answered += freely_turned && solved;
+    if (!solved) continue;
+    ASSERT_TRUE(query->solve_plainly(pose_a, pose_b, plain)) << k;
+    const auto bits = [](const Result& r) {
+      std::vector<std::uint64_t> all{r.intersecting, static_cast<std::uint64_t>(r.iterations), static_cast<std::uint64_t>(r.support_calls)};
+      for (const auto& x : {r.signed_distance, r.lower_bound, r.upper_bound}) all.push_back(std::bit_cast<std::uint64_t>(x.value()));
+      for (const auto& v : {r.normal, r.witness_a, r.witness_b})
+        for (int i = 0; i < 3; ++i) all.push_back(std::bit_cast<std::uint64_t>(v.value()[i]));
+      return all;
+    };
+    ASSERT_EQ(bits(fast), bits(plain)) << k << ": " << *fast.signed_distance << " for " << *plain.signed_distance;
+    ASSERT_EQ(fast.status, plain.status) << k;
+    overlaps += fast.intersecting, edges += !fast.intersecting && fast.support_calls == 15;
+  }
+  EXPECT_GT(answered, turned * 9 / 10) << turned;
+  EXPECT_GT(overlaps, 1000);
+  EXPECT_GT(edges, 1000);
+}
+#endif
 
 }  // namespace
 }  // namespace gjkdbg
