@@ -30,18 +30,17 @@ struct Apply {
   }
 
   void operator()(const recorded::SupportQueried& e) {
-    frame.iteration = e.iteration;
-    frame.direction = e.direction;
-    frame.answered = true;
-    frame.newest = e.vertex;
+    frame.iteration = e.iteration, frame.newest = e.vertex;
+    frame.direction = e.direction, frame.answered = true;
     if (e.phase == Phase::gjk) {
       frame.simplex.insert(frame.simplex.begin(), e.vertex);
       frame.barycentric.clear();
       frame.closest.reset();
     } else if (e.phase == Phase::cast) {
       frame.stage = Frame::Stage::gjk;
+      const auto time = frame.time;
       const double began = last_state_time();  // the ray's supports are those of the bodies where the cast began
-      places_after(began, began);
+      places_after(began, began), frame.time = std::max(began, time.value_or(began));
     } else if (e.phase == Phase::mpr || e.phase == Phase::sat || e.phase == Phase::projections) {
       frame.stage = e.phase == Phase::mpr ? Frame::Stage::mpr : e.phase == Phase::sat ? Frame::Stage::sat : Frame::Stage::projections;
     } else {
@@ -199,9 +198,10 @@ struct Apply {
   }
   void operator()(const recorded::CastAdvanced& e) {
     frame.direction.reset(), frame.newest.reset();
-    frame.iteration = e.iteration;
-    frame.pair = e.pair;
-    advance_to(e.time);
+    frame.iteration = e.iteration, frame.pair = e.pair;
+    const auto* support = step > 0 ? std::get_if<recorded::SupportQueried>(&recording.events[step - 1]) : nullptr;
+    if (support && support->phase == Phase::cast) frame.time = e.time;
+    else advance_to(e.time);
     frame.stage = Frame::Stage::done;
   }
   void operator()(const recorded::CastEnded& e) {

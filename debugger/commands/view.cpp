@@ -238,6 +238,7 @@ struct Render {
     if (all) return animation(host);
     if (!output.ends_with(".png")) throw Error("unknown-format", "must end in .png, .svg, or with --all in .gif", "-o " + output);
     app.session.go_to(step_number(app.session.count()));
+    app.drop_note();  // nothing has just been done
     write_output(output, png(host));
     return exit_done;
   }

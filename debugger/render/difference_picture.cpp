@@ -47,7 +47,7 @@ class DifferencePainter : public Painter {
     };
     const int n = static_cast<int>(bodies.size());
     if (frame_.pair[0] >= n || frame_.pair[1] >= n) return {};
-    return difference_mesh(at(0), at(1), meshes_.dimension);
+    return difference_mesh(at(0), at(1), meshes_.dimension, meshes_.whole);
   }
 
   /// Of the triangles whose run this is, at rest.
@@ -57,7 +57,7 @@ class DifferencePainter : public Painter {
       if (parts.triangle[i] >= 0) body.shape = triangle_of(body.shape, static_cast<std::size_t>(parts.triangle[i]));
       return body;
     };
-    return difference_mesh(part(0), part(1), meshes_.dimension);
+    return difference_mesh(part(0), part(1), meshes_.dimension, meshes_.whole);
   }
 
   // --- The difference ---------------------------------------------------------------------------------------------
@@ -103,7 +103,8 @@ class DifferencePainter : public Painter {
     }
     if (const auto chosen = frame_.chosen ? frame_.faces.find(*frame_.chosen) : frame_.faces.end(); chosen != frame_.faces.end()) name_face(chosen->second);
     right_face();
-    if (!frame_.normal || !frame_.depth || frame_.epa_status == EpaStatus::aborted) return;
+    if (!frame_.normal || !frame_.depth || frame_.epa_status == EpaStatus::aborted || frame_.mpr_status == MprStatus::overlapping) return;  // the latter's is no way out
+    if (frame_.epa_status == EpaStatus::iteration_limit && recording_.scene.scene.query == Query::cast && !recording_.result.normal) return;  // nor is this, the answer says
     const ViewPoint tip = to_view(*frame_.normal) * std::max(0.0, *frame_.depth - meshes_.radius);
     if (!(tip.norm() > 1e-6 * unit())) return;
     picture_.lines.push_back({ViewPoint::Zero(), tip, palette_.text, 3, Stroke::solid, true, true});  // not the chosen face's colour, before which it lies
@@ -142,7 +143,7 @@ class DifferencePainter : public Painter {
 
   /// MPR: the rays from the inner point to the portal's corners, and the one through the origin.
   void portal() {
-    if (!frame_.interior) return;
+    if (!frame_.interior || frame_.mpr_status == MprStatus::flat) return;  // no point is inside, then
     const ViewPoint inside = to_view(*frame_.interior);
     picture_.points.push_back({inside, palette_.text, 6, Mark::ring, -1});
     label(inside, "inside", palette_.text, 9, 12);

@@ -132,18 +132,18 @@ DisplayMesh body_mesh(const Body& body, int dimension) {
   return hull_mesh(in_world(points_of(body.shape, dimension, true), body.pose), dimension);
 }
 
-DisplayMesh difference_mesh(const Body& a, const Body& b, int dimension) {
+DisplayMesh difference_mesh(const Body& a, const Body& b, int dimension, bool whole) {
   if (std::holds_alternative<Mesh>(a.shape.geometry) || std::holds_alternative<Mesh>(b.shape.geometry)) return {};
   Points difference;
   const auto corners_a = corners_of(a.shape, dimension), corners_b = corners_of(b.shape, dimension);
-  if (corners_a && corners_b && corners_a->points.size() * corners_b->points.size() <= most_pairs) {
+  if (!(whole && radius_sum(a, b, dimension) > 0) && corners_a && corners_b && corners_a->points.size() * corners_b->points.size() <= most_pairs) {
     const Points pa = extreme(in_world(corners_a->points, a.pose), dimension), pb = extreme(in_world(corners_b->points, b.pose), dimension);
     for (const AnyVector& p : pa)
       for (const AnyVector& q : pb) difference.push_back(p - q);
   } else {
     // Round, or too many pairs for a picture: supports of the difference, whose every point is on its boundary.
     const WorldSupport support_a(a, dimension), support_b(b, dimension);
-    for (const AnyVector& d : directions(dimension)) difference.push_back(support_a(a.pose.matrix * d, false) - support_b(-(a.pose.matrix * d), false));
+    for (const AnyVector& d : directions(dimension)) difference.push_back(support_a(a.pose.matrix * d, whole) - support_b(-(a.pose.matrix * d), whole));
   }
   return hull_mesh(difference, dimension);
 }

@@ -29,8 +29,8 @@ struct DisplayMesh {
 /// The body in the world, radii and margins included. Meshes become their triangles.
 DisplayMesh body_mesh(const Body& body, int dimension);
 
-/// The difference of the two cores, A - B: what the simplex and the polytope live in. Empty for meshes.
-DisplayMesh difference_mesh(const Body& a, const Body& b, int dimension);
+/// The difference A - B of the two cores, or of the bodies with their radii (`whole`): what the simplex and the polytope live in. Empty for meshes.
+DisplayMesh difference_mesh(const Body& a, const Body& b, int dimension, bool whole);
 
 /// The sum of the two radii: the bodies overlap where the cores' difference comes this near to the origin.
 double radius_sum(const Body& a, const Body& b, int dimension);

@@ -5,13 +5,14 @@
 
 namespace gjkdbg {
 
-SceneMeshes scene_meshes(const Scene& scene) {
+SceneMeshes scene_meshes(const Scene& scene, const Settings& settings) {
   SceneMeshes meshes;
   meshes.dimension = scene.dimension;
   for (const Body& body : scene.bodies) meshes.bodies.push_back(body_mesh(body, scene.dimension));
   if (scene.bodies.size() < 2) return meshes;
-  meshes.difference = difference_mesh(scene.bodies[0], scene.bodies[1], scene.dimension);
-  meshes.radius = radius_sum(scene.bodies[0], scene.bodies[1], scene.dimension);
+  meshes.whole = settings.name == MethodName::gjk_boolean;
+  meshes.difference = difference_mesh(scene.bodies[0], scene.bodies[1], scene.dimension, meshes.whole);
+  meshes.radius = meshes.whole ? 0 : radius_sum(scene.bodies[0], scene.bodies[1], scene.dimension);
   return meshes;
 }
 
@@ -119,11 +120,30 @@ Bounds world_bounds(const SceneMeshes& meshes, const Recording& recording) {
   return bounds;
 }
 
+/// In a cast A - B moves on, past O where the bodies come by one another or spring back: where it is after each response, and at the end.
+void add_moved_difference(Bounds& bounds, const SceneMeshes& meshes, const Recording& recording) {
+  const std::vector<Body>& bodies = recording.scene.scene.bodies;
+  if (recording.scene.scene.query != Query::cast || bodies.size() < 2 || !bodies[0].motion || !bodies[1].motion) return;
+  AnyVector moved = AnyVector::Zero(bodies[0].pose.position.size()), velocity = bodies[0].motion->velocity - bodies[1].motion->velocity;
+  double time = 0;
+  const auto keep = [&](const AnyVector& by) {
+    for (const ViewPoint& p : meshes.difference.points) bounds.keep(p + to_view(by));
+  };
+  for (const Event& event : recording.events) {
+    if (const auto* e = std::get_if<recorded::CastEnded>(&event)) keep(AnyVector(moved + velocity * (e->time - time)));
+    const auto* state = std::get_if<recorded::State>(&event);
+    if (!state || state->bodies.size() < 2) continue;
+    moved = state->bodies[0].position - bodies[0].pose.position - state->bodies[1].position + bodies[1].pose.position;
+    velocity = state->bodies[0].velocity - state->bodies[1].velocity, time = state->time;
+    keep(moved);
+  }
+}
+
 }  // namespace
 
 Camera fit_world(const SceneMeshes& meshes, const Recording& recording) {
   std::vector<Arrow> arrows;
-  const bool still = !recording.scene.scene.motion;  // of a motion thousands are asked, everywhere: the bodies would become small for them
+  const bool still = recording.scene.scene.query != Query::simulate;  // of a simulation thousands are asked, everywhere: the bodies would become small for them
   for (const Event& event : recording.events)
     if (const auto* e = std::get_if<recorded::SupportQueried>(&event); e && still) add_arrow(arrows, to_view(e->a), e->direction, support_arrow), add_arrow(arrows, to_view(e->b), e->direction, -support_arrow);
   const Result& r = recording.result;
@@ -140,6 +160,7 @@ Camera fit_difference(const SceneMeshes& meshes, const Recording& recording) {
     bounds.add(r), bounds.add(-r);
     bounds.around_origin = meshes.radius;
   }
+  add_moved_difference(bounds, meshes, recording);
   std::vector<Arrow> arrows;
   for (const Event& event : recording.events) {
     if (const auto given = given_vertex(event)) bounds.keep(to_view(given->w));

@@ -9,6 +9,9 @@
 
 namespace gjkdbg {
 
+/// So many of an answer's contact points have a number in the picture, and a row in the panel.
+constexpr std::size_t numbered_contacts = 8;
+
 /// What is shown besides the algorithm's state.
 struct ViewSettings {
   bool difference = true;     ///< the hull of A - B, ghosted
@@ -27,11 +30,12 @@ struct ViewSettings {
 /// Display hulls of a scene: made once, drawn at every step.
 struct SceneMeshes {
   std::vector<DisplayMesh> bodies;
-  DisplayMesh difference;  ///< of the first two
-  double radius = 0;  ///< the sum of the cores' radii
+  DisplayMesh difference;  ///< of the first two's cores, or whatever the method works on
+  bool whole = false;      ///< the method knows no cores
+  double radius = 0;       ///< the sum of the cores' radii; of whole bodies 0
   int dimension = 3;
 };
-SceneMeshes scene_meshes(const Scene& scene);
+SceneMeshes scene_meshes(const Scene& scene, const Settings& settings);
 
 /// What a body goes by where there is no room for its name: A, B, …, Z, then its number.
 std::string body_letter(int body);

@@ -230,17 +230,20 @@ class WorldPainter : public Painter {
     picture_.lines.push_back({a, b, palette_.frontier, 2.5, Stroke::solid, false, true});
     picture_.points.push_back({a, palette_.body_a, 6, Mark::disc, -1});
     picture_.points.push_back({b, palette_.body_b, 6, Mark::disc, -1});
-    label(a, "witness a", palette_.body_a, 9, 12);
-    label(b, "witness b", palette_.body_b, 9, -12);
+    const double beside = (a - b).dot(projection_.up()) >= 0 ? -12 : 12;  // the upper one's name above it, the lower one's below
+    label(a, "witness a", palette_.body_a, 9, beside);
+    label(b, "witness b", palette_.body_b, 9, -beside);
     if (r.normal) {
       const ViewPoint tip = a + arrow_along(*r.normal, normal_arrow);
       picture_.arrow(a, tip, palette_.frontier);
       label(tip, "n", palette_.frontier);
     }
     if (!r.contacts) return;
-    for (const ContactPoint& c : *r.contacts) {
+    for (std::size_t i = 0; i < r.contacts->size(); ++i) {
+      const ContactPoint& c = (*r.contacts)[i];
       picture_.points.push_back({to_view(c.point_a), palette_.chosen, 5, Mark::square, -1});
       picture_.lines.push_back({to_view(c.point_a), to_view(c.point_b), palette_.chosen, 2, Stroke::solid, false, true});
+      if (r.contacts->size() > 1 && i < numbered_contacts) small_label(to_view(c.point_a), std::to_string(i + 1), palette_.chosen, true);
     }
   }
 };

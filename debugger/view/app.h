@@ -69,6 +69,7 @@ class App {
   /// Where an edit has taken a body out of the views.
   void fit_what_has_left();
   void note(std::string text) { notice = std::move(text), notice_left_ = 3; }
+  void drop_note() { notice_left_ = 0; }
 
   enum class Asking { nothing, open, save, compare, find, go_to };
   void ask(Asking what) { asking_ = what; }
@@ -128,6 +129,7 @@ void stop_section(App& app);
 std::vector<int> possible_methods(const SceneFile& file);
 void step_panel(App& app, const Area& area);
 void timeline_panel(App& app, const Area& area);
+void time_axis(App& app);  ///< of a moving scene, above the timeline
 void transport(App& app);
 void scrubber(App& app);
 void bounds_plot(App& app, float width, float height);

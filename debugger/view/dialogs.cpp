@@ -59,12 +59,17 @@ void App::find_dialog() {
       find_error_ = e.message();
     }
   }
-  const std::string told = !find_error_.empty() ? find_error_ : found_ ? "step " + std::to_string(*found_) + ": " + summary(session.recording(), *found_, settings.newest_first) : "";
-  if (told.empty()) return;
-  ImGui::SameLine(0, theme.px(12));
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextColored(vec(find_error_.empty() ? theme.palette.text_faint : theme.palette.newest), "%s", shortened(theme.text, told, ImGui::GetContentRegionAvail().x).c_str());
-  if (ImGui::IsItemHovered()) tooltip(theme, told);
+  if (!find_error_.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.newest));
+    ImGui::TextWrapped("%s", find_error_.c_str());
+    ImGui::PopStyleColor();
+  } else if (found_) {
+    const std::string told = "step " + std::to_string(*found_) + ": " + summary(session.recording(), *found_, settings.newest_first);
+    ImGui::SameLine(0, theme.px(12));
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextColored(vec(theme.palette.text_faint), "%s", shortened(theme.text, told, ImGui::GetContentRegionAvail().x).c_str());
+    if (ImGui::IsItemHovered()) tooltip(theme, told);
+  }
 }
 
 void App::go_to_dialog() {

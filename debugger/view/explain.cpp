@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "debugger/render/step_pictures.h"
-#include "debugger/view/explain_motion.h"
+#include "debugger/view/explain_methods.h"
 #include "recordings/region_tests.h"
 
 namespace gjkdbg {
@@ -15,8 +15,8 @@ std::string feature_name(std::size_t vertices) {
   return vertices < 5 ? names[vertices] : "simplex";
 }
 
-struct Explain : ExplainMotion {
-  using ExplainMotion::operator();
+struct Explain : ExplainMethods {
+  using ExplainMethods::operator();
 
   /// The number that speaks against each dropped vertex: its weight in the projection of the origin on the part it was tried with.
   std::string why_dropped(const recorded::SimplexReduced& e) const {
@@ -60,9 +60,6 @@ struct Explain : ExplainMotion {
 
   bool rounded() const { return gjkdbg::rounded(recording.scene.scene); }
   const char* bodies() const { return rounded() ? "cores" : "bodies"; }
-  std::string a() const { return body_letter(frame.pair[0]); }
-  std::string b() const { return body_letter(frame.pair[1]); }
-  std::string difference() const { return a() + " - " + b(); }
 
   /// GJK sees the cores alone.
   std::string less_the_radii(const recorded::GjkEnded& e) const {
@@ -76,15 +73,22 @@ struct Explain : ExplainMotion {
     return ", " + short_number(chosen->second.distance) + " of the cores, with the radii, " + short_number(e.depth - chosen->second.distance) + " together,";
   }
 
+  /// Bounds that differ in what is on show of them have not met.
+  std::string how_near(const recorded::GjkEnded& e) const {
+    const double gap = e.upper_bound - e.lower_bound, size = std::max(std::abs(e.lower_bound), std::abs(e.upper_bound));
+    if (gap <= 1e-4 * size) return " have met. The signed distance is known";
+    return std::string(gap <= recording.settings.tolerance * size ? " are within the tolerance of each other" : " are as near as rounding lets them come") + ", and the signed distance lies between them";
+  }
+
   std::string sentence(const recorded::GjkEnded& e) const {
     switch (e.status) {
       case GjkStatus::converged:
         if (!std::isfinite(e.lower_bound) || !std::isfinite(e.upper_bound)) return "The search ends, and the bodies are called apart. How far is not said here.";
-        return "No support lies farther along -v than v itself: the bounds " + short_number(e.lower_bound) + " and " + short_number(e.upper_bound) + " have met. The signed distance is known" + less_the_radii(e) + ".";
+        return "No support lies farther along -v than v itself: the bounds " + short_number(e.lower_bound) + " and " + short_number(e.upper_bound) + how_near(e) + less_the_radii(e) + ".";
       case GjkStatus::separated: return "The plane of the last support has all of " + difference() + " on its far side, so the bodies are apart. Only yes or no was asked, and this is the proof.";
       case GjkStatus::within_radius: return "The cores are apart, but nearer than the radii around them: the bodies overlap, and no more was asked.";
       case GjkStatus::enclosed: return "The simplex encloses the origin: some point of body " + a() + " is also a point of body " + b() + ". The " + bodies() + " overlap.";
-      case GjkStatus::touching: return "The origin lies on the simplex, within rounding: on a vertex, an edge or a face. Whether this is touch or overlap, EPA will tell.";
+      case GjkStatus::touching: return std::string("The origin lies on the simplex, within rounding: on a vertex, an edge or a face. ") + (frame.step + 1 == recording.events.size() ? "The bodies touch or overlap, and no more was asked." : "Whether this is touch or overlap, EPA will tell.");
       case GjkStatus::stalled: return "|v| no longer falls: the precision is used up, or the method's own rule stops it. The bounds say how much is known.";
       case GjkStatus::iteration_limit: return "The iteration limit is reached before the bounds met. This is no answer; the bounds say how much is known.";
       case GjkStatus::rule_met: return "The stopping rule of the method is met. Bounds that have not met say that it stopped early.";
@@ -159,7 +163,6 @@ struct Explain : ExplainMotion {
                                                               : "It lies at or past the origin along d, so nothing is proven yet.")};
   }
 
-  std::string facet() const { return facet_name(recording); }
   std::string measure() const { return recording.scene.scene.dimension == 1 ? "length" : recording.scene.scene.dimension == 2 ? "area" : "volume"; }
   static std::string capital(std::string word) { return word[0] = static_cast<char>(word[0] - 'a' + 'A'), word; }
 
@@ -275,115 +278,6 @@ struct Explain : ExplainMotion {
     if (foreign(recording) && e.status != EpaStatus::aborted)
       return {"The solver's EPA ends", "It takes the " + facet() + " chosen for part of the boundary, and gives " + short_number(e.depth) + " for the depth" + (e.normal.isZero(0) ? "." : ", " + short_vector(e.normal) + " for the normal.")};
     return {"EPA ends: " + in_words(word_of(e.status)), sentence(e)};
-  }
-
-  Explanation operator()(const recorded::MprBegan& e) const {
-    return {"MPR begins", "From a point inside " + difference() + ", " + short_vector(e.interior) + ", the difference of two inner points of the bodies, a ray goes through the origin. Where does it leave " + difference() + ": before the origin or beyond it?"};
-  }
-
-  Explanation operator()(const recorded::PortalFound& e) const {
-    return {"A portal", "The ray passes between these vertices. " + std::string(e.distance < 0 ? "The origin is still beyond the portal, by " + short_number(-e.distance) + ": is there anything of " + difference() + " farther out?"
-                                                                                              : "The origin is on the inner side, by " + short_number(e.distance) + ": the bodies overlap. The portal moves out to the boundary for the depth.")};
-  }
-
-  Explanation operator()(const recorded::MprEnded& e) const {
-    const std::string title = "MPR ends: " + (e.status == MprStatus::converged ? "the portal is on the boundary" : in_words(word_of(e.status)));
-    switch (e.status) {
-      case MprStatus::separated: return {title, "The plane of the last support has all of " + difference() + " on its far side: the bodies are apart, by at least " + short_number(-e.depth) + ". How far, MPR does not know."};
-      case MprStatus::overlapping: return {title, "The origin lies inside a portal: the bodies overlap, and no more was asked."};
-      case MprStatus::converged:
-        return {title, "The portal is part of the boundary. Moving body " + b() + " by " + short_number(e.depth) + " along its normal " + short_vector(e.normal) + " separates the bodies; a shorter way may exist, for MPR looks in one direction only."};
-      case MprStatus::flat: return {title, difference() + " has no volume, so no point of it is inside: MPR has nowhere to look from, and GJK and EPA answer instead."};
-      case MprStatus::stalled: return {title, "The portal no longer moves in this precision. The bounds say how much is known."};
-      case MprStatus::iteration_limit: return {title, "The limit is reached. The bounds say how much is known."};
-    }
-    return {title, {}};
-  }
-
-  Explanation operator()(const recorded::SatBegan& e) const {
-    if (recording.scene.scene.dimension == 2)
-      return {"SAT begins", "Two convex polygons are apart exactly when the normal of an edge separates them: " + std::to_string(e.faces_a) + " normals of " + a() + "'s edges and " + std::to_string(e.faces_b) + " of " + b() + "'s." + (e.faces_a == 2 && e.faces_b == 2 ? " Opposite edges of a box share one." : "")};
-    return {"SAT begins", "Two polytopes are apart exactly when the normal of a face or the cross product of two edges separates them: " + std::to_string(e.faces_a) + " faces of " + a() + ", " + std::to_string(e.faces_b) +
-                              " of " + b() + ", and of " + std::to_string(e.edge_pairs) + " pairs of edges those that make a face of " + difference() + "." +
-                              (e.faces_a == 3 && e.faces_b == 3 && e.edge_pairs == 9 ? " Of two boxes opposite faces and parallel edges share an axis." : "")};
-  }
-
-  Explanation operator()(const recorded::AxisTested& e) const {
-    const std::string normal = (facet() == "edge" ? "the normal of an " : "the normal of a ") + facet() + " of ", from[] = {normal + a(), normal + b(), "across an edge of each"};
-    const std::string axis = "Along " + short_vector(e.direction) + ", " + from[static_cast<std::size_t>(e.source)] + ", ";
-    if (e.distance > 0) return {"An axis with a gap", axis + "there is a gap of " + short_number(e.distance) + " between the bodies: this axis separates them, and they are at least that far apart."};
-    return {"An axis without a gap", axis + "the bodies overlap by " + short_number(-e.distance) + (e.lower_bound <= e.distance ? ", the least so far: the depth is no more than that." : ", more than along the best axis so far.")};
-  }
-
-  Explanation operator()(const recorded::PointsProjected& e) const {
-    if (frame.stage == Frame::Stage::projections) {
-      const std::string points = "b = " + short_vector(e.b) + " is the point of " + b() + " nearest to x, and a = " + short_vector(e.a) + " that of " + a() + " nearest to b. ";
-      if (e.closest.isZero(0)) return {"A point of both bodies", points + "They are the same: the cores overlap."};
-      return {"Nearest points in turn", points + "They are " + short_number(e.closest.norm()) + " apart" + (farther(e) ? ", more than before: the step went too far, and part of it is taken back." : ".")};
-    }
-    const std::string points = "a = " + short_vector(e.a) + ", b = " + short_vector(e.b) + ", " + short_number(e.closest.norm()) + " apart. ";
-    const std::string why = "No axis tells how far the bodies are apart: nearest to each other are " + std::string(recording.scene.scene.dimension == 2 && boxes() ? "" : "a corner and an edge, or ") + "two corners. ";
-    if (boxes()) return {"The nearest points, at a corner", why + "Of the " + facet() + "s of " + difference() + " that face O the one nearest to it has them: " + points + "A plane across them has all of " + difference() + " behind it, so nothing is nearer."};
-    return {"Points projected in turn", why + "So a point looks for the nearest of the other body, and that for its nearest: " + points + "Two points that are each the nearest to the other are the closest of all."};
-  }
-
-  bool boxes() const { return of_two_boxes(recording, frame.step); }
-
-  /// Beyond what rounding makes of two equal distances.
-  bool farther(const recorded::PointsProjected& e) const {
-    const double digits = recording.settings.scalar == Scalar::float_precision ? 1e-5 : 1e-13, least = e.closest.norm() - digits * (e.a.norm() + e.b.norm() + e.closest.norm());
-    for (std::size_t i = frame.step; i-- > 0 && !std::holds_alternative<recorded::ProjectionsBegan>(recording.events[i]);)
-      if (const auto* before = std::get_if<recorded::PointsProjected>(&recording.events[i]); before && before->closest.norm() < least) return true;
-    return false;
-  }
-
-  bool gjk_follows() const { return frame.step + 1 < recording.events.size() && std::holds_alternative<recorded::GjkBegan>(recording.events[frame.step + 1]); }
-
-  Explanation operator()(const recorded::SatEnded& e) const {
-    const std::string title = "SAT ends: " + std::string(word_of(e.status));
-    if (e.status == SatStatus::separated && frame.step > 0 && std::holds_alternative<recorded::PointsProjected>(recording.events[frame.step - 1]))
-      return {title, "An axis separates the bodies (their cores), and " + std::string(boxes() ? "the nearest points are known: " : "the points projected last are each the nearest to the other: ") + short_number(e.distance) + " along " + short_vector(e.normal) + " is the distance."};
-    if (e.status == SatStatus::separated)
-      return {title, "One separating axis is proof enough: the bodies (their cores) are apart, " + (gjk_follows() ? "by at least " + short_number(e.distance) + ". GJK measures how far." : recording.scene.scene.query == Query::intersect ? "and no more was asked." : short_number(e.distance) + " along " + short_vector(e.normal) + ", from one nearest point to the other.")};
-    if (e.status == SatStatus::undecided) return {title, "The widest gap, " + short_number(e.distance) + ", is within rounding. Bodies that touch have none wider, but neither have sharp ones that point at each other from afar. GJK tells them apart."};
-    return {title, "No axis separates, so the bodies overlap; the least overlap of all axes, " + short_number(-e.distance) + " along " + short_vector(e.normal) + ", is the depth, exactly."};
-  }
-
-  Explanation operator()(const recorded::ClosedFormBegan& e) const {
-    const bool a = !e.edge_a.isZero(0), b = !e.edge_b.isZero(0);
-    const std::string what = a && b ? "Both cores are segments: " + difference() + " is the parallelogram with the corner c = " : a || b ? "One core is a point, the other a segment: " + difference() + " is a segment from c = " : "Both cores are points: " + difference() + " is the point c = ";
-    return {"A formula instead of a search", what + short_vector(e.corner) + (a ? ", edge p = " + short_vector(e.edge_a) : "") + (b ? std::string(a ? " and -q" : ", edge -q") + ", q = " + short_vector(e.edge_b) : "") + ". The radii are added afterwards."};
-  }
-
-  Explanation operator()(const recorded::ProjectionsBegan& e) const {
-    return {"Projections begin", "For shapes like these a formula gives the point nearest to another. From x = " + short_vector(e.point) + " inside " + a() + " to the nearest of " + b() + ", from there to the nearest of " + a() + ", and so on: two points that are each the nearest to the other are the closest of all."};
-  }
-
-  Explanation operator()(const recorded::PointPredicted& e) const {
-    return {"Newton's step", "How the two points turn and slide when the first one moves is known. So it goes straight to where they should stand still: x = " + short_vector(e.point) + "."};
-  }
-
-  Explanation operator()(const recorded::ProjectionsEnded& e) const {
-    const std::string title = "Projections end: " + std::string(word_of(e.status));
-    if (e.status == ProjectionsStatus::separated) return {title, "The plane across the way from a to b leaves no room for points that are nearer: these are the nearest ones, and the bodies are between " + short_number(e.lower_bound) + " and " + short_number(e.upper_bound) + " apart."};
-    if (e.status == ProjectionsStatus::overlapping) return {title, std::string("The cores share a point") + (recording.scene.scene.query > Query::distance ? ". How deep they overlap is for GJK and EPA to find." : ".")};
-    return {title, "What is left is within rounding, or the points do not settle. GJK decides."};
-  }
-
-  Explanation operator()(const recorded::LinesSolved& e) const {
-    const auto place = [](double x, const char* name, const std::string& body) { return name + short_number(x) + (x < 0 ? ", before the beginning of " : x > 1 ? ", beyond the end of " : ", within ") + body + "'s segment"; };
-    const bool s = !std::isnan(e.s), t = !std::isnan(e.t);
-    if (s && t) return {"The lines are solved", "Where both derivatives of |v|\xC2\xB2 vanish the lines are nearest: " + place(e.s, "s = ", a()) + "; " + place(e.t, "t = ", b()) + ". What is out of range is clamped, and the other is taken anew."};
-    if (s || t) return {"The line is solved", "The foot of the perpendicular lies at " + (s ? place(e.s, "s = ", a()) : place(e.t, "t = ", b())) + "."};
-    if (frame.parallelogram && !frame.parallelogram->edge_a.isZero(0)) return {"The lines are parallel", "The determinant is zero: every place along them is as near as the others, and an end of a segment will do."};
-    return {"Nothing to solve", "A point has no parameter."};
-  }
-
-  Explanation operator()(const recorded::ClosedFormEnded& e) const {
-    const std::string title = "Closed form ends: " + std::string(word_of(e.status)), at = "At s = " + short_number(e.s) + ", t = " + short_number(e.t) + ", ";
-    if (e.status == ClosedFormStatus::separated) return {title, at + "v is nearest to the origin, " + short_number(e.closest.norm()) + " away, and the plane across it proves that. Less the radii, that is the bodies' distance."};
-    if (e.normal.norm() > 0) return {title, "The origin lies in " + difference() + ". " + at + "the border is nearest, " + short_number(e.closest.norm()) + " along " + short_vector(e.normal) + "; with the radii, that is the depth."};
-    return {title, "The origin lies in " + difference() + ", so the bodies overlap; no more was asked."};
   }
 
   Explanation operator()(const recorded::Warning& e) const { return {"Warning: " + e.code, e.message}; }

@@ -42,5 +42,7 @@ std::string letters(const std::vector<int>& vertices, const std::vector<int>& or
 /// Short decimal: six significant digits.
 std::string short_number(double x);
 std::string short_vector(const AnyVector& v, int digits = 4);
+/// As many as it takes of two points for their difference to be right to a hundredth, at least 4.
+int digits_that_tell(const AnyVector& p, const AnyVector& q);
 
 }  // namespace gjkdbg

@@ -21,8 +21,9 @@ std::string in_difference(const std::string& name, const Frame& frame) {
   if (name.starts_with("nearest: ")) return "The one nearest to O, which should have been chosen: the distance of another is no lower bound of the depth.";
   if (name.starts_with("region ")) return "Whatever lies here has its nearest point of the simplex on the vertices named. O lies here, so the others are not needed.";
   if (name.ends_with("dropped")) return "A vertex that is dropped: the point nearest to O does without it.";
-  if (name == "at most") return "As far from O as the signed distance is at most: the border of " + difference + " comes at least this near.";
-  if (name == "at least") return "As far from O as the signed distance is at least: nothing of the border is nearer.";
+  const std::string near = "the border of " + difference + " comes at least this near.", far = "nothing of the border is nearer.";
+  if (name == "at most") return frame.upper_bound.value_or(0) < 0 ? "As far from O as the depth is at least: " + far : "As far from O as the signed distance is at most: " + near;
+  if (name == "at least") return frame.lower_bound.value_or(0) < 0 ? "As far from O as the depth is at most: " + near : "As far from O as the signed distance is at least: " + far;
   if (name == "inside") return "A point inside " + difference + ". MPR looks where the ray from here through O leaves.";
   if (name == "x") return "x, how far along r the origin surely gets before it meets " + difference + ".";
   if (name == "r") return "r, the motion of " + b + " less that of " + a + ": O moves along it while " + difference + " stands still.";
@@ -47,6 +48,7 @@ std::string in_world(const std::string& name, const Frame& frame, const Recordin
   }
   if (name == "n") return "n, the unit normal, from " + a + " towards " + b + ".";
   if (name == "x") return "x, where the next look begins.";
+  if (!name.empty() && name.find_first_not_of("0123456789") == std::string::npos) return "Contact point " + name + ". The panel says where it is.";
   if (name.starts_with("velocity")) return "Where the body moves to; the longer, the faster: the longest arrow of the whole motion is the fastest.";
   if (name.starts_with("turning")) return "The axis that the body turns about, counter-clockwise seen from the arrow's tip; the longer, the faster.";
   if (name == "impulse") return "The push that one body gets at this point, and the other the opposite one. Its length is in the numbers beside, not in the arrow.";

@@ -36,7 +36,7 @@ std::vector<Sample> samples_of(const Recording& recording) {
         recording.events[i]);
   const Result& r = recording.result;
   const Event& last = recording.events.back();
-  const bool without_bounds = std::holds_alternative<recorded::EpaEnded>(last) || std::holds_alternative<recorded::SatEnded>(last);
+  const bool without_bounds = std::holds_alternative<recorded::EpaEnded>(last) || std::holds_alternative<recorded::SatEnded>(last) || std::holds_alternative<recorded::MprEnded>(last);
   if (r.upper_bound && r.lower_bound && without_bounds) samples.push_back({recording.events.size() - 1, *r.upper_bound - *r.lower_bound, phase_of(last), run});
   std::erase_if(samples, [](const Sample& x) { return !(x.gap > 0) || !std::isfinite(x.gap); });
   return samples;
@@ -201,7 +201,9 @@ void bounds_plot(App& app, float width, float height) {
     if (!(value >= low * 0.999) || value > high) return;
     const float y = y_of(std::log10(value));
     for (float x = from.x; x < to.x; x += theme.px(8)) draw->AddLine({x, y}, {std::min(x + theme.px(4), to.x), y}, packed(colour), 1);
-    draw->AddText(theme.small, theme.small->FontSize * 0.85f, {from.x + theme.px(4), below ? y + 1 : y - theme.px(13)}, packed(colour), name);
+    const ImVec2 place{from.x + theme.px(4), below ? y + 1 : y - theme.px(13)}, extent = theme.small->CalcTextSizeA(theme.small->FontSize * 0.85f, 1e9f, 0, name);
+    draw->AddRectFilled(place, {place.x + extent.x, place.y + extent.y}, packed(p.view));  // no grid line through it
+    draw->AddText(theme.small, theme.small->FontSize * 0.85f, place, packed(colour), name);
   };
   level(floor, "rounding floor", p.dropped, true);
   if (tolerance > 1.5 * floor) level(tolerance, "tolerance", p.support, false);
@@ -262,7 +264,11 @@ void motion_plot(App& app, float width, float height) {
     if (const auto* e = std::get_if<recorded::CastAdvanced>(&event); e && cast) points.push_back({e->time, e->distance, e->pair[0] * 1000 + e->pair[1], i});
     if (const auto* e = std::get_if<recorded::State>(&event); e && !cast) points.push_back({e->time, e->energy, 0, i});
   }
-  if (points.empty()) return;
+  if (points.empty()) {
+    const bool inside = s.recording().result.intersecting && cast;
+    draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(12), at.y + theme.px(32)}, packed(p.text_soft), inside ? "They overlap at the beginning:\nthere is nothing to advance to." : "Nothing has moved.");
+    return;
+  }
   double low = cast ? 0 : points[0].value, high = points[0].value, first = cast ? 0 : points[0].time, last = cast ? 1 : points[0].time;
   for (const Point& x : points) low = std::min(low, x.value), high = std::max(high, x.value), last = std::max(last, x.time);
   if (const double middle = (low + high) / 2; !(high - low > 1e-6 * std::abs(middle))) {  // what stays is a line, not its rounding drawn large

@@ -92,7 +92,8 @@ void stop_section(App& app) {
   app.stop_when_text.copy(buffer, sizeof buffer - 1);
   ImGui::SetNextItemWidth(-1);
   ImGui::PushFont(theme.mono);
-  if (ImGui::InputTextWithHint("##stop", "upper_bound < 1e-3", buffer, sizeof buffer)) {
+  const bool edited = ImGui::InputTextWithHint("##stop", "upper_bound < 1e-3", buffer, sizeof buffer);
+  if (edited) {
     app.stop_when_text = buffer;
     app.stop_when_error.clear();
     try {
@@ -107,6 +108,7 @@ void stop_section(App& app) {
     ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.newest));
     ImGui::TextWrapped("%s", app.stop_when_error.c_str());
     ImGui::PopStyleColor();
+    if (edited) ImGui::SetScrollHereY(1);  // the field may be the last that has room
   }
   breakpoint_rows(app);
 }

@@ -216,8 +216,8 @@ void vertex(App& app) {
   const std::string letter = simplex_letter(frame, *number, app.settings.newest_first);
   section(theme, ("VERTEX #" + std::to_string(*number) + (letter.empty() ? "" : " (" + letter + ")") + (app.settings.selected ? ", selected" : ", newest")).c_str());
   number_row(app, "w = a - b", v.w, theme.palette.text, v.event);
-  number_row(app, "a", v.a, theme.palette.body_a, v.event);
-  number_row(app, "b", v.b, theme.palette.body_b, v.event);
+  number_row(app, "a", v.a, theme.palette.body_a, v.event, digits_that_tell(v.a, v.b));
+  number_row(app, "b", v.b, theme.palette.body_b, v.event, digits_that_tell(v.a, v.b));
   if (v.event == app.session.step()) return;
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {app.theme.px(8), app.theme.px(2)});
   if (ImGui::Button(("from step " + std::to_string(v.event)).c_str())) app.session.go_to(v.event);
@@ -233,11 +233,15 @@ std::string touching_text(const Result& r) {
   return text + more;
 }
 
-/// As many as two points need to look like two, where they are two.
-int digits_that_tell(const AnyVector& p, const AnyVector& q) {
-  int digits = 4;
-  while (digits < 17 && p != q && short_vector(p, digits) == short_vector(q, digits)) ++digits;
-  return digits;
+/// How many, and of the first ones, which the picture numbers, where they are on A.
+void contacts(App& app, const std::vector<ContactPoint>& all) {
+  const Colour colour = app.theme.palette.chosen;
+  number_row(app.theme, "contact points", std::to_string(all.size()), colour);
+  for (std::size_t i = 0; i < all.size() && i < numbered_contacts; ++i) {
+    const ContactPoint& c = all[i];
+    const std::string exact = "on the one body " + short_vector(c.point_a, 17) + "\non the other " + short_vector(c.point_b, 17) + "\ndepth " + all_digits(c.depth);
+    number_row(app, ("contact " + std::to_string(i + 1)).c_str(), short_vector(c.point_a), colour, std::nullopt, exact);
+  }
 }
 
 /// After the last step: the answer and its certificate.
@@ -245,7 +249,7 @@ void answer(App& app) {
   if (app.session.step() + 1 != app.session.count()) return;
   const Theme& theme = app.theme;
   const Result& r = app.session.recording().result;
-  const bool first_hit = app.session.scene().scene.query == Query::cast && r.touching_at;
+  const bool first_hit = r.status == "hit";
   section(theme, mesh_parts(app.session.recording(), app.session.frame()) ? "RESULT, OF ALL TRIANGLES" : first_hit ? "RESULT: THE FIRST HIT" : "RESULT");
   if (r.time) number_row(app, app.session.scene().scene.query == Query::cast ? "apart until" : "time", *r.time, theme.palette.text);
   if (r.touching_at) number_row(theme, "touching at", touching_text(r), theme.palette.text);
@@ -262,7 +266,7 @@ void answer(App& app) {
   const int digits = r.witness_a && r.witness_b ? digits_that_tell(*r.witness_a, *r.witness_b) : 4;
   if (r.witness_a) number_row(app, "witness a", *r.witness_a, theme.palette.body_a, {}, digits);
   if (r.witness_b) number_row(app, "witness b", *r.witness_b, theme.palette.body_b, {}, digits);
-  if (r.contacts) number_row(theme, "contact points", std::to_string(r.contacts->size()), theme.palette.chosen);
+  if (r.contacts) contacts(app, *r.contacts);
   number_row(theme, "support calls", std::to_string(r.support_calls), theme.palette.text_soft);
 }
 

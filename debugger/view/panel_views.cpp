@@ -160,6 +160,8 @@ std::string subtitle_of(App& app, const Shown& shown) {
   if (shown.world && app.session.meshes().bodies.size() < 2) return "a body alone";
   if (shown.world) return app.session.meshes().bodies.size() > 2 ? "the bodies; in colour the two that are looked at" : "the two bodies and their supports";
   if (app.session.meshes().radius > 0) return "of the cores; yellow ring: the sum of the radii";
+  const Frame& frame = app.session.frame();
+  if (!shown.other && (frame.gjk_status || frame.epa_status || frame.stage == Frame::Stage::gjk)) return "simplex, direction, support plane, polytope";  // where another method handed over
   switch (shown.other ? app.session.other().settings.name : app.session.recording().settings.name) {
     case MethodName::sat: return "every axis that could separate it from O";
     case MethodName::mpr: return "from a point inside, through O, out to the portal";
@@ -194,7 +196,7 @@ void interact(App& app, const Area& area, const Shown& shown, Camera& camera, co
   const auto& vertices = frame.vertices;
   if (const auto found = under ? vertices.find(*under) : vertices.end(); found != vertices.end()) {
     const FrameVertex& v = found->second;
-    ImGui::SetTooltip("vertex #%d\nw = %s\na = %s\nb = %s\nclick to select", *under, short_vector(v.w).c_str(), short_vector(v.a).c_str(), short_vector(v.b).c_str());
+    ImGui::SetTooltip("vertex #%d\nw = %s\na = %s\nb = %s\nclick to select", *under, short_vector(v.w).c_str(), short_vector(v.a, digits_that_tell(v.a, v.b)).c_str(), short_vector(v.b, digits_that_tell(v.a, v.b)).c_str());
   } else if (const std::string label = label_under(items, ImGui::GetIO().MousePos, theme); !label.empty()) {
     if (const std::string meaning = meaning_of(label, shown.world, frame, shown.other ? app.session.other() : app.session.recording()); !meaning.empty()) tooltip(theme, meaning);
   }

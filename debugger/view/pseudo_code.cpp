@@ -1,5 +1,7 @@
 #include "debugger/view/explain.h"
 
+#include <algorithm>
+
 namespace gjkdbg {
 namespace {
 
@@ -106,6 +108,10 @@ struct PseudoCodeOf {
       return {"EPA", {"polytope = simplex, completed round O", "repeat", "  e = its edge nearest O", "  w = support(normal of e)", rounded(recording.scene.scene) ? "  if w not beyond e: |e| + radii" : "  if w not beyond e: depth = |e|", "  remove the edges w sees", "  join the ends of the gap to w"}, line};
     return {"EPA", {"polytope = simplex, completed round O", "repeat", "  f = its face nearest O", "  w = support(normal of f)", rounded(recording.scene.scene) ? "  if w not beyond f: |f| + radii" : "  if w not beyond f: depth = |f|", "  remove the faces w sees", "  join the horizon to w"}, line};
   }
+  bool has_grown() const {
+    const auto grown = [](const Event& event) { return std::holds_alternative<recorded::PolytopeGrown>(event); };
+    return std::any_of(recording.events.begin(), recording.events.begin() + static_cast<std::ptrdiff_t>(step), grown);
+  }
   PseudoCode operator()(const recorded::PolytopeSeeded&) const { return epa(0); }
   PseudoCode operator()(const recorded::FaceChosen&) const { return epa(2); }
   PseudoCode operator()(const recorded::PolytopeGrown&) const { return epa(6); }
@@ -113,8 +119,8 @@ struct PseudoCodeOf {
     switch (e.status) {
       case EpaStatus::converged:
       case EpaStatus::stalled: return epa(4);
-      case EpaStatus::flat:
-      case EpaStatus::separated: return epa(0);  // nothing could be completed
+      case EpaStatus::separated: return epa(has_grown() ? 3 : 0);  // a support plane has O beyond it
+      case EpaStatus::flat: return epa(0);  // nothing could be completed
       case EpaStatus::iteration_limit:
       case EpaStatus::aborted: break;
     }

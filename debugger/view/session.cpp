@@ -50,9 +50,26 @@ std::string in_the_panels_words(const Error& e) {
   std::string text = e.message(), who;
   if (e.where().starts_with("/bodies/")) who = body_letter(std::atoi(e.where().c_str() + 8)) + ": ";
   else if (!e.where().starts_with("/method") && e.where() != "/query") return e.line();
-  if (text.starts_with("must ")) text = e.where().substr(e.where().rfind('/') + 1) + " " + text;
+  if (text.starts_with("must ")) {
+    const std::size_t end = e.where().rfind('/');
+    std::string field = e.where().substr(end + 1);
+    if (field == "0" || field == "1" || field == "2") {  // "position x"
+      const std::size_t begin = e.where().rfind('/', end - 1) + 1;
+      field = e.where().substr(begin, end - begin) + " " + "xyz"[field[0] - '0'];
+    }
+    text = field + " " + text;
+  }
   std::replace(text.begin(), text.end(), '_', ' ');
   return who + text;
+}
+
+/// Throws Error where a file of the scene could not be read again, as a number is beyond all bounds. Points are left out: they have been looked at.
+void check_readable(const SceneFile& scene) {
+  SceneFile light = scene;
+  light.method.initial_simplex.clear();
+  for (Body& body : light.scene.bodies)
+    if (std::holds_alternative<PointSet>(body.shape.geometry) || std::holds_alternative<Mesh>(body.shape.geometry)) body.shape.geometry = Sphere{1};
+  parse_scene(scene_to_json(light).dump(), light.directory);
 }
 
 }  // namespace
@@ -101,7 +118,7 @@ void Session::begin(std::string title) {
 }
 
 void Session::take(Recording recording) {
-  SceneMeshes meshes = scene_meshes(recording.scene.scene);
+  SceneMeshes meshes = scene_meshes(recording.scene.scene, recording.settings);
   // The cursor stays at the event that corresponds: of the same kind and iteration, the same occurrence of it.
   std::optional<Event> place;
   std::size_t occurrence = 0;
@@ -265,6 +282,7 @@ std::string Session::edit(const SceneFile& next) {
         return body_letter(static_cast<int>(i)) + ": " + field + (field.empty() ? "" : " ") + e.message();
       }
     }
+    check_readable(next);
     Recording recording = record_from_here(next);
     if (!grouping_ || !edit_open_) undo_.push_back(now());
     take(std::move(recording));

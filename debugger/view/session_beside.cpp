@@ -22,7 +22,7 @@ void Session::solve_other() {
 
 void Session::compare_with(Recording recording, std::string title) {
   if (recording.events.empty()) throw Error("no-events", "holds no events", "/events");
-  SceneMeshes meshes = scene_meshes(recording.scene.scene);
+  SceneMeshes meshes = scene_meshes(recording.scene.scene, recording.settings);
   stop_comparing();
   other_ = std::move(recording);
   other_meshes_ = std::move(meshes);

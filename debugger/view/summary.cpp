@@ -26,6 +26,12 @@ std::string short_vector(const AnyVector& v, int digits) {
   return out + ")";
 }
 
+int digits_that_tell(const AnyVector& p, const AnyVector& q) {
+  const double apart = (p - q).lpNorm<Eigen::Infinity>(), far = std::max(p.lpNorm<Eigen::Infinity>(), q.lpNorm<Eigen::Infinity>());
+  if (!(apart > 0) || !std::isfinite(far)) return 4;
+  return static_cast<int>(std::clamp(std::ceil(std::log10(far) - std::log10(apart)) + 2, 4.0, 17.0));
+}
+
 std::string letters(const std::vector<int>& vertices, const std::vector<int>& order, bool newest_first) {
   std::string out;
   for (const int v : vertices) {
@@ -85,7 +91,7 @@ struct Summarise {
   std::string operator()(const recorded::MprBegan& e) const { return "from " + short_vector(e.interior); }
   std::string operator()(const recorded::PortalFound& e) const { return "portal at " + short_number(e.distance); }
   std::string operator()(const recorded::MprEnded& e) const {
-    return std::string(word_of(e.status)) + (e.status == MprStatus::separated ? "  gap " + short_number(-e.depth) : "  depth " + short_number(e.depth));
+    return std::string(word_of(e.status)) + (e.status == MprStatus::separated ? "  gap " + short_number(-e.depth) : e.status == MprStatus::overlapping ? "" : "  depth " + short_number(e.depth));
   }
   std::string operator()(const recorded::SatBegan& e) const { return std::to_string(e.faces_a) + " + " + std::to_string(e.faces_b) + " faces, " + std::to_string(e.edge_pairs) + " edge pairs"; }
   std::string operator()(const recorded::AxisTested& e) const { return (e.distance > 0 ? "gap " : "overlap ") + short_number(std::abs(e.distance)); }

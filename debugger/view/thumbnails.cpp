@@ -18,7 +18,7 @@ void Thumbnails::draw(const Gallery& gallery, const std::string& scene, const Th
     Thumbnail made;
     try {
       made.recording = record(read_scene(gallery.file(scene)));
-      made.meshes = scene_meshes(made.recording.scene.scene);
+      made.meshes = scene_meshes(made.recording.scene.scene, made.recording.settings);
       made.last = frame_at(made.recording, made.recording.events.size() - 1);
     } catch (const Error&) {
       made.broken = true;  // opening it will say why

@@ -1,0 +1,121 @@
+#include "debugger/view/explain_methods.h"
+
+#include <cmath>
+
+namespace gjkdbg {
+
+bool ExplainMethods::ends_in(MprStatus status) const {
+  const auto* end = frame.step + 1 < recording.events.size() ? std::get_if<recorded::MprEnded>(&recording.events[frame.step + 1]) : nullptr;
+  return end && end->status == status;
+}
+
+Explanation ExplainMethods::operator()(const recorded::MprBegan& e) const {
+  return {"MPR begins", "From a point inside " + difference() + ", " + short_vector(e.interior) + ", the difference of two inner points of the bodies, a ray goes through the origin. Where does it leave " + difference() + ": before the origin or beyond it?"};
+}
+
+Explanation ExplainMethods::operator()(const recorded::PortalFound& e) const {
+  return {"A portal", "The ray passes between these vertices. " + std::string(e.distance < 0 ? "The origin is still beyond the portal, by " + short_number(-e.distance) + ": is there anything of " + difference() + " farther out?"
+                                                                                            : "The origin is on the inner side, by " + short_number(e.distance) + ": the bodies overlap." + (ends_in(MprStatus::overlapping) ? "" : " The portal moves out to the boundary for the depth."))};
+}
+
+Explanation ExplainMethods::operator()(const recorded::MprEnded& e) const {
+  const std::string title = "MPR ends: " + (e.status == MprStatus::converged ? "the portal is on the boundary" : in_words(word_of(e.status)));
+  switch (e.status) {
+    case MprStatus::separated: return {title, "The plane of the last support has all of " + difference() + " on its far side: the bodies are apart, by at least " + short_number(-e.depth) + ". How far, MPR does not know."};
+    case MprStatus::overlapping: return {title, "The origin lies on the inner side of a portal: the bodies overlap, and no more was asked."};
+    case MprStatus::converged:
+      return {title, "The portal is part of the boundary. Moving body " + b() + " by " + short_number(e.depth) + " along its normal " + short_vector(e.normal) + " separates the bodies; a shorter way may exist, for MPR looks in one direction only."};
+    case MprStatus::flat: return {title, difference() + " has no volume, so no point of it is inside: MPR has nowhere to look from, and GJK and EPA answer instead."};
+    case MprStatus::stalled: return {title, "The portal no longer moves in this precision. The bounds say how much is known."};
+    case MprStatus::iteration_limit: return {title, "The limit is reached. The bounds say how much is known."};
+  }
+  return {title, {}};
+}
+
+Explanation ExplainMethods::operator()(const recorded::SatBegan& e) const {
+  if (recording.scene.scene.dimension == 2)
+    return {"SAT begins", "Two convex polygons are apart exactly when the normal of an edge separates them: " + std::to_string(e.faces_a) + " normals of " + a() + "'s edges and " + std::to_string(e.faces_b) + " of " + b() + "'s." + (e.faces_a == 2 && e.faces_b == 2 ? " Opposite edges of a box share one." : "")};
+  return {"SAT begins", "Two polytopes are apart exactly when the normal of a face or the cross product of two edges separates them: " + std::to_string(e.faces_a) + " faces of " + a() + ", " + std::to_string(e.faces_b) +
+                            " of " + b() + ", and of " + std::to_string(e.edge_pairs) + " pairs of edges those that make a face of " + difference() + "." +
+                            (e.faces_a == 3 && e.faces_b == 3 && e.edge_pairs == 9 ? " Of two boxes opposite faces and parallel edges share an axis." : "")};
+}
+
+Explanation ExplainMethods::operator()(const recorded::AxisTested& e) const {
+  const std::string normal = (facet() == "edge" ? "the normal of an " : "the normal of a ") + facet() + " of ", from[] = {normal + a(), normal + b(), "across an edge of each"};
+  const std::string axis = "Along " + short_vector(e.direction) + ", " + from[static_cast<std::size_t>(e.source)] + ", ";
+  if (e.distance > 0) return {"An axis with a gap", axis + "there is a gap of " + short_number(e.distance) + " between the bodies: this axis separates them, and they are at least that far apart."};
+  return {"An axis without a gap", axis + "the bodies overlap by " + short_number(-e.distance) + (e.lower_bound <= e.distance ? ", the least so far: the depth is no more than that." : ", more than along the best axis so far.")};
+}
+
+Explanation ExplainMethods::operator()(const recorded::PointsProjected& e) const {
+  if (frame.stage == Frame::Stage::projections) {
+    const std::string points = "b = " + short_vector(e.b) + " is the point of " + b() + " nearest to x, and a = " + short_vector(e.a) + " that of " + a() + " nearest to b. ";
+    if (e.closest.isZero(0)) return {"A point of both bodies", points + "They are the same: the cores overlap."};
+    return {"Nearest points in turn", points + "They are " + short_number(e.closest.norm()) + " apart" + (farther(e) ? ", more than before: the step went too far, and part of it is taken back." : ".")};
+  }
+  const std::string points = "a = " + short_vector(e.a) + ", b = " + short_vector(e.b) + ", " + short_number(e.closest.norm()) + " apart. ";
+  const std::string why = "No axis tells how far the bodies are apart: nearest to each other are " + std::string(recording.scene.scene.dimension == 2 && boxes() ? "" : "a corner and an edge, or ") + "two corners. ";
+  if (boxes()) return {"The nearest points, at a corner", why + "Of the " + facet() + "s of " + difference() + " that face O the one nearest to it has them: " + points + "A plane across them has all of " + difference() + " behind it, so nothing is nearer."};
+  return {"Points projected in turn", why + "So a point looks for the nearest of the other body, and that for its nearest: " + points + "Two points that are each the nearest to the other are the closest of all."};
+}
+
+bool ExplainMethods::boxes() const { return of_two_boxes(recording, frame.step); }
+
+/// Beyond what rounding makes of two equal distances.
+bool ExplainMethods::farther(const recorded::PointsProjected& e) const {
+  const double digits = recording.settings.scalar == Scalar::float_precision ? 1e-5 : 1e-13, least = e.closest.norm() - digits * (e.a.norm() + e.b.norm() + e.closest.norm());
+  for (std::size_t i = frame.step; i-- > 0 && !std::holds_alternative<recorded::ProjectionsBegan>(recording.events[i]);)
+    if (const auto* before = std::get_if<recorded::PointsProjected>(&recording.events[i]); before && before->closest.norm() < least) return true;
+  return false;
+}
+
+bool ExplainMethods::gjk_follows() const { return frame.step + 1 < recording.events.size() && std::holds_alternative<recorded::GjkBegan>(recording.events[frame.step + 1]); }
+
+Explanation ExplainMethods::operator()(const recorded::SatEnded& e) const {
+  const std::string title = "SAT ends: " + std::string(word_of(e.status));
+  if (e.status == SatStatus::separated && frame.step > 0 && std::holds_alternative<recorded::PointsProjected>(recording.events[frame.step - 1]))
+    return {title, "An axis separates the bodies (their cores), and " + std::string(boxes() ? "the nearest points are known: " : "the points projected last are each the nearest to the other: ") + short_number(e.distance) + " along " + short_vector(e.normal) + " is the distance."};
+  if (e.status == SatStatus::separated)
+    return {title, "One separating axis is proof enough: the bodies (their cores) are apart, " + (gjk_follows() ? "by at least " + short_number(e.distance) + ". GJK measures how far." : recording.scene.scene.query == Query::intersect ? "and no more was asked." : short_number(e.distance) + " along " + short_vector(e.normal) + ", from one nearest point to the other.")};
+  if (e.status == SatStatus::undecided) return {title, "The widest gap, " + short_number(e.distance) + ", is within rounding. Bodies that touch have none wider, but neither have sharp ones that point at each other from afar. GJK tells them apart."};
+  return {title, "No axis separates, so the bodies overlap; the least overlap of all axes, " + short_number(-e.distance) + " along " + short_vector(e.normal) + ", is the depth, exactly."};
+}
+
+Explanation ExplainMethods::operator()(const recorded::ClosedFormBegan& e) const {
+  const bool a = !e.edge_a.isZero(0), b = !e.edge_b.isZero(0);
+  const std::string what = a && b ? "Both cores are segments: " + difference() + " is the parallelogram with the corner c = " : a || b ? "One core is a point, the other a segment: " + difference() + " is a segment from c = " : "Both cores are points: " + difference() + " is the point c = ";
+  return {"A formula instead of a search", what + short_vector(e.corner) + (a ? ", edge p = " + short_vector(e.edge_a) : "") + (b ? std::string(a ? " and -q" : ", edge -q") + ", q = " + short_vector(e.edge_b) : "") + ". The radii are added afterwards."};
+}
+
+Explanation ExplainMethods::operator()(const recorded::ProjectionsBegan& e) const {
+  return {"Projections begin", "For shapes like these a formula gives the point nearest to another. From x = " + short_vector(e.point) + " inside " + a() + " to the nearest of " + b() + ", from there to the nearest of " + a() + ", and so on: two points that are each the nearest to the other are the closest of all."};
+}
+
+Explanation ExplainMethods::operator()(const recorded::PointPredicted& e) const {
+  return {"Newton's step", "How the two points turn and slide when the first one moves is known. So it goes straight to where they should stand still: x = " + short_vector(e.point) + "."};
+}
+
+Explanation ExplainMethods::operator()(const recorded::ProjectionsEnded& e) const {
+  const std::string title = "Projections end: " + std::string(word_of(e.status));
+  if (e.status == ProjectionsStatus::separated) return {title, "The plane across the way from a to b leaves no room for points that are nearer: these are the nearest ones, and the bodies are between " + short_number(e.lower_bound) + " and " + short_number(e.upper_bound) + " apart."};
+  if (e.status == ProjectionsStatus::overlapping) return {title, std::string("The cores share a point") + (recording.scene.scene.query > Query::distance ? ". How deep they overlap is for GJK and EPA to find." : ".")};
+  return {title, "What is left is within rounding, or the points do not settle. GJK decides."};
+}
+
+Explanation ExplainMethods::operator()(const recorded::LinesSolved& e) const {
+  const auto place = [](double x, const char* name, const std::string& body) { return name + short_number(x) + (x < 0 ? ", before the beginning of " : x > 1 ? ", beyond the end of " : ", within ") + body + "'s segment"; };
+  const bool s = !std::isnan(e.s), t = !std::isnan(e.t);
+  if (s && t) return {"The lines are solved", "Where both derivatives of |v|\xC2\xB2 vanish the lines are nearest: " + place(e.s, "s = ", a()) + "; " + place(e.t, "t = ", b()) + ". What is out of range is clamped, and the other is taken anew."};
+  if (s || t) return {"The line is solved", "The foot of the perpendicular lies at " + (s ? place(e.s, "s = ", a()) : place(e.t, "t = ", b())) + "."};
+  if (frame.parallelogram && !frame.parallelogram->edge_a.isZero(0)) return {"The lines are parallel", "The determinant is zero: every place along them is as near as the others, and an end of a segment will do."};
+  return {"Nothing to solve", "A point has no parameter."};
+}
+
+Explanation ExplainMethods::operator()(const recorded::ClosedFormEnded& e) const {
+  const std::string title = "Closed form ends: " + std::string(word_of(e.status)), at = "At s = " + short_number(e.s) + ", t = " + short_number(e.t) + ", ";
+  if (e.status == ClosedFormStatus::separated) return {title, at + "v is nearest to the origin, " + short_number(e.closest.norm()) + " away, and the plane across it proves that. Less the radii, that is the bodies' distance."};
+  if (e.normal.norm() > 0) return {title, "The origin lies in " + difference() + ". " + at + "the border is nearest, " + short_number(e.closest.norm()) + " along " + short_vector(e.normal) + "; with the radii, that is the depth."};
+  return {title, "The origin lies in " + difference() + ", so the bodies overlap; no more was asked."};
+}
+
+}  // namespace gjkdbg

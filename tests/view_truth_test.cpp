@@ -1,0 +1,100 @@
+// That what the window says is so: of numbers beyond all bounds, of bounds of an overlap, of ends at which nothing follows, of bodies while a ray is cast.
+#include <cmath>
+#include <limits>
+
+#include "debugger/view/explain.h"
+#include "tests/support/window_fixture.h"
+
+namespace gjkdbg {
+namespace {
+
+class Truth : public Window {
+ protected:
+  std::string told_at_the_end() {
+    session.go_to(session.count() - 1);
+    return explain(session.recording(), session.frame()).text;
+  }
+};
+
+/// What is typed may be no number a scene can hold; a file of it could not be read again.
+TEST_F(Truth, AnEditThatNoFileCanHoldIsRefused) {
+  for (const double x : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN(), 1e200}) {
+    SceneFile next = session.scene();
+    next.scene.bodies[1].pose.position[0] = x;
+    EXPECT_TRUE(session.edit(next).starts_with("B: position x must ")) << session.edit(next);
+  }
+  EXPECT_TRUE(session.scene().scene.bodies[1].pose.position.allFinite());
+  SceneFile next = session.scene();
+  next.scene.bodies[1].pose.position[0] += 0.5;
+  EXPECT_EQ(session.edit(next), "");
+}
+
+/// The ring of the upper bound lies inside A - B where the bodies overlap.
+TEST_F(Truth, BoundsOfAnOverlapAreThoseOfTheDepth) {
+  const auto meaning = [&](const char* ring) { return meaning_of(ring, false, session.frame(), session.recording()); };
+  session.go_to(17);
+  ASSERT_LT(session.frame().upper_bound.value(), 0);
+  EXPECT_NE(meaning("at most").find("nothing of the border is nearer"), std::string::npos);
+  EXPECT_NE(meaning("at least").find("at least this near"), std::string::npos);
+  app.open_gallery("box-box-apart");
+  session.go_to(session.count() - 2);
+  EXPECT_NE(meaning("at most").find("at least this near"), std::string::npos);
+  EXPECT_NE(meaning("at least").find("nothing of the border is nearer"), std::string::npos);
+}
+
+TEST_F(Truth, NothingIsAnnouncedThatDoesNotCome) {
+  app.open_gallery("boolean-round");
+  EXPECT_EQ(told_at_the_end().find("EPA will tell"), std::string::npos);
+  app.open_gallery("mpr-yes-no");
+  EXPECT_NE(told_at_the_end().find("on the inner side"), std::string::npos);
+  session.step_by(-1);
+  EXPECT_EQ(explain(session.recording(), session.frame()).text.find("moves out"), std::string::npos);
+}
+
+TEST_F(Truth, BoundsHaveMetOnlyIfTheyHave) {
+  app.open_gallery("needles-a-hair-apart");
+  EXPECT_NE(told_at_the_end().find("as near as rounding lets them come"), std::string::npos) << told_at_the_end();
+  app.open_gallery("box-box-apart");
+  EXPECT_NE(told_at_the_end().find("have met. The signed distance is known"), std::string::npos) << told_at_the_end();
+  app.open_gallery("end-stalled");
+  EXPECT_NE(told_at_the_end().find("no longer falls"), std::string::npos) << told_at_the_end();
+}
+
+/// While a ray is cast the bodies stand where the cast began, and time only goes on.
+TEST_F(Truth, BodiesStandWhileARayIsCast) {
+  app.open_gallery("cast-ray");
+  session.go_to(0);
+  const auto places = session.frame().places;
+  double time = 0;
+  for (std::size_t i = 0; i + 1 < session.count(); ++i) {
+    session.go_to(i);
+    EXPECT_EQ(session.frame().places, places) << i;
+    EXPECT_GE(session.frame().time.value(), time) << i;
+    time = session.frame().time.value();
+  }
+  EXPECT_GT(time, 0.4);
+  session.go_to(session.count() - 1);
+  EXPECT_NE(session.frame().places, places);
+}
+
+/// The boolean form knows no cores: every support is a corner of the difference on show.
+TEST_F(Truth, TheBooleanFormIsShownWholeBodies) {
+  app.open_gallery("boolean-round");
+  EXPECT_EQ(session.meshes().radius, 0);
+  for (const Event& event : session.recording().events)
+    if (const auto* e = std::get_if<recorded::SupportQueried>(&event)) {
+      const ViewPoint d = to_view(AnyVector(e->direction.normalized()));
+      double reach = -std::numeric_limits<double>::infinity();
+      for (const ViewPoint& p : session.meshes().difference.points) reach = std::max(reach, p.dot(d));
+      EXPECT_NEAR(to_view(e->w).dot(d), reach, 0.05);
+    }
+}
+
+TEST(Digits, TellTwoPointsApart) {
+  EXPECT_EQ(digits_that_tell(AnyVector(Eigen::Vector3d(1, 2, 3)), AnyVector(Eigen::Vector3d(0.5, 2, 3))), 4);
+  EXPECT_EQ(digits_that_tell(AnyVector(Eigen::Vector2d(1e10, 0)), AnyVector(Eigen::Vector2d(1e10 + 0.5, 0))), 13);
+  EXPECT_EQ(digits_that_tell(AnyVector(Eigen::Vector2d(1, 1)), AnyVector(Eigen::Vector2d(1, 1))), 4);
+}
+
+}  // namespace
+}  // namespace gjkdbg
