@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "algo/contact.h"
 #include "algo/impulses.h"
 #include "algo/motion.h"
 #include "shapes/mass.h"
@@ -17,6 +18,8 @@ using M3 = Eigen::Matrix3d;
 
 constexpr double left_over = 1e-3;    ///< of the size: overlap that is left where it is
 constexpr double moved_apart = 0.4;   ///< share of the rest that a step takes away
+constexpr double least_arm = 1e-60;   ///< of gyration: less is a point. Spins are speeds by arms, and their squares have to stay numbers, as those of the longest lengths
+constexpr double most_turn = 1e15;    ///< radians a step: of more no digit says where it ends
 
 class Simulation {
  public:
@@ -54,14 +57,16 @@ class Simulation {
     b.v = in_space(m.velocity) + w.cross(b.r * b.center);
     b.inertia = m.mass * mass.inertia;
     if (dimension_ == 2) b.inertia = V3(0, 0, b.inertia(2, 2)).asDiagonal();
-    // What has no extent across an axis does not resist turning about it, and does not turn.
+    // What has no extent across an axis does not resist turning about it, and does not turn; nor does what has next to none about any.
     const Eigen::SelfAdjointEigenSolver<M3> axes(b.inertia);
     const double most = axes.eigenvalues().cwiseAbs().maxCoeff();
-    if (dimension_ > 1 && most > 0) {
+    if (dimension_ > 1 && most > m.mass * least_arm * least_arm) {
       V3 inverse = V3::Zero();
       for (int i = 0; i < 3; ++i)
         if (axes.eigenvalues()[i] > 1e-12 * most) inverse[i] = 1 / axes.eigenvalues()[i];
-      b.inverse = axes.eigenvectors() * inverse.asDiagonal() * axes.eigenvectors().transpose();
+      b.axes = axes.eigenvectors();
+      if (b.axes.determinant() < 0) b.axes.col(2) *= -1;
+      b.inverse = b.axes * inverse.asDiagonal() * b.axes.transpose();
       b.turns = true;
       b.l = b.r * b.inertia * b.r.transpose() * w;
     }
@@ -118,7 +123,7 @@ class Simulation {
     for (RigidBody& b : bodies_) {
       if (!movable(b)) continue;
       b.x += b.v * h_;
-      if (!b.turns || b.l.isZero(0)) continue;
+      if (!b.turns || b.l.isZero(0) || !(b.w().norm() * h_ < most_turn)) continue;
       switch (scene_.motion->integrator) {
         case Integrator::explicit_euler: turn_as_taught(b); break;
         case Integrator::semi_implicit_euler: turn_by_exponential(b); break;
@@ -139,15 +144,17 @@ class Simulation {
     b.r = rotation(half.w() * h_) * b.r;
   }
 
-  /// R' = [w] R, then Gram and Schmidt from the first column.
+  /// R' = [w] R for the principal axes, then Gram and Schmidt from the one of least inertia on. That one moves as told, by h w x u, and so a line u, which has no inertia
+  /// about itself, stays square to L = I w: where it is turned aside, L has a part along it that it cannot turn with.
   void turn_as_taught(RigidBody& b) const {
-    M3 cross;
+    M3 cross, u = b.r * b.axes;
     const V3 w = b.w();
     cross << 0, -w[2], w[1], w[2], 0, -w[0], -w[1], w[0], 0;
-    b.r += h_ * cross * b.r;
-    b.r.col(0).normalize();
-    b.r.col(1) = (b.r.col(1) - b.r.col(0) * b.r.col(0).dot(b.r.col(1))).normalized();
-    b.r.col(2) = b.r.col(0).cross(b.r.col(1));
+    u += h_ * cross * u;
+    u.col(0).normalize();
+    u.col(1) = (u.col(1) - u.col(0) * u.col(0).dot(u.col(1))).normalized();
+    u.col(2) = u.col(0).cross(u.col(1));
+    b.r = u * b.axes.transpose();
   }
 
   /// q' = w q / 2 with w = I(q)^-1 L, L constant between impulses.
@@ -218,10 +225,22 @@ class Simulation {
       const double proven = limited ? std::min(c.depth, std::max(0.0, -r.upper_bound.value_or(0))) : c.depth;
       Contact contact{static_cast<int>(i), static_cast<int>(j), in_space(AnyVector((c.point_a + c.point_b) / 2)), in_space(*r.normal).normalized(), c.depth, proven,
                       restitution, std::sqrt(a.friction * b.friction), fall_left, {bodies_[i].v, bodies_[j].v}};
+      if (is_known(contact)) continue;
       contacts_.push_back(contact);
       if (trace_)
         (*trace_)(world::ContactFound{time_, {contact.first, contact.second}, in_scene(contact.point), in_scene(contact.normal), contact.depth});
     }
+  }
+
+  /// On the edge that two triangles share it is a contact of each.
+  bool is_known(const Contact& contact) const {
+    const auto first = static_cast<std::size_t>(contact.first), second = static_cast<std::size_t>(contact.second);
+    if (parts_[first].size() * parts_[second].size() == 1) return false;
+    const double apart = least_apart(bodies_[first].reach, bodies_[second].reach, contact.point.norm());
+    return std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact& c) {
+      return c.first == contact.first && c.second == contact.second && (c.point - contact.point).norm() <= apart && std::abs(c.depth - contact.depth) <= apart &&
+             std::abs(c.proven - contact.proven) <= apart && (c.normal - contact.normal).norm() <= 1e-6;
+    });
   }
 
   void tell_limit(std::size_t i, std::size_t j, bool touch) {
