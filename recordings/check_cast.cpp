@@ -16,7 +16,7 @@ struct CastCheck : CastStretch {
   const Result right;  ///< ours, until the first impact
 
   explicit CastCheck(CheckContext& context)
-      : CastStretch{context.recording.scene.scene}, c(context), result(c.recording.result), limit(c.stop * c.size), right(ours()) {}
+      : CastStretch{context.recording.scene.scene}, c(context), result(c.recording.result), limit(c.stop * c.size + c.world), right(ours()) {}
 
   Result ours() const {
     Scene first = scene;
@@ -78,7 +78,7 @@ struct CastCheck : CastStretch {
   void normal_and_witnesses(const Scene& two, double gap) const {
     if (!result.normal) return;
     const AnyVector& n = *result.normal;
-    if (!n.allFinite() || std::abs(n.norm() - 1) > 1e-3) return c.find("wrong-normal", "The normal " + text_of(n) + " has not length 1.");
+    if (const std::string off = c.not_unit(n); !off.empty()) return c.find("wrong-normal", off);
     if (has_mesh(*result.pair)) return;
     if (along(two, n) < gap - 10 * limit) {
       const bool flipped = along(two, -n) >= gap - 10 * limit;

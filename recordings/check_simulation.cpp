@@ -218,7 +218,7 @@ struct SimulationCheck {
         const auto i = static_cast<std::size_t>(k);
         const double off = std::min((e.point - before.bodies[i].position).norm(), (e.point - now.bodies[i].position).norm());
         const double reach = reach_of(scene.bodies[i].shape, scene.dimension), moves = 2 * h * (before.bodies[i].velocity.norm() + now.bodies[i].velocity.norm());
-        if (std::abs(e.normal.norm() - 1) > 1e-5) return c.find("wrong-normal", std::string(what) + "'s normal " + text_of(e.normal) + " has length " + text_of(e.normal.norm()) + " instead of 1.");
+        if (const std::string length = c.not_unit(e.normal, std::string(what) + "'s normal"); !length.empty()) return c.find("wrong-normal", length);
         if (off > reach + deepest / 2 + moves + 1e-6 * c.size) return c.find("wrong-contact", std::string(what) + " is at " + text_of(e.point) + ", " + text_of(off) + " from body " + std::to_string(k) + ", which reaches " + text_of(reach) + ".");
       }
     };
