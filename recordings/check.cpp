@@ -64,28 +64,21 @@ std::string winding_hint(const std::vector<std::vector<int>>& faces) {
 
 bool contains(const std::vector<int>& list, int x) { return std::find(list.begin(), list.end(), x) != list.end(); }
 
-namespace {
-
 /// A point x of a body at p has coordinates of the world up to r = |p| + |x|, and each of them is rounded: with u = epsilon / 2, the point is off by u r, the sum over a body's
 /// vertices with weights that sum to 1 only so nearly by 4 u r for the weights and 4 u r for the sum, and its height along a direction, three products and two sums, by 3 u r
 /// more. Of two bodies' difference all of this comes together, and the subtraction's own rounding: 13 u (rA + rB), below 8 epsilon (rA + rB). In a cast a body is where its
-/// velocity takes it in the meantime, too. (In a simulation what is judged at a place allows for it there.)
-double rounding_in_the_world(const Recording& r) {
+/// velocity takes it in the meantime, too.
+double rounding_in_the_world(const Scene& scene, Scalar scalar) {
   std::vector<double> reaches;
-  for (const Body& b : r.scene.scene.bodies) {
-    const bool moves = r.scene.scene.query == Query::cast && b.motion;
-    reaches.push_back(b.pose.position.stableNorm() + reach_of(b.shape, r.scene.scene.dimension) + (moves ? b.motion->velocity.stableNorm() : 0));
-  }
+  for (const Body& b : scene.bodies) reaches.push_back(b.pose.position.stableNorm() + reach_of(b.shape, scene.dimension) + (scene.query == Query::cast && b.motion ? b.motion->velocity.stableNorm() : 0));
   std::sort(reaches.rbegin(), reaches.rend());  // of more than two bodies those farthest out
   if (reaches.size() > 2) reaches.resize(2);
   double sum = 0;
   for (const double reach : reaches) sum += reach;
-  return 8 * (r.settings.scalar == Scalar::float_precision ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon()) * sum;
+  return 8 * (scalar == Scalar::float_precision ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon()) * sum;
 }
 
-}  // namespace
-
-CheckContext::CheckContext(const Recording& r, double told_in) : recording(r), dimension(r.scene.scene.dimension), unit(told_in), inferred(r.generator.starts_with("a solver under ")) {
+CheckContext::CheckContext(const Recording& r, const Recording& as_written, double told_in) : recording(r), written(as_written), unit(told_in), dimension(r.scene.scene.dimension), inferred(r.generator.starts_with("a solver under ")) {
   const auto& bodies = r.scene.scene.bodies;
   const bool moves = r.scene.scene.query == Query::cast || r.scene.scene.query == Query::simulate;
   has_supports = !moves && std::none_of(bodies.begin(), bodies.end(), [](const Body& b) { return std::holds_alternative<Mesh>(b.shape.geometry); });
@@ -96,7 +89,7 @@ CheckContext::CheckContext(const Recording& r, double told_in) : recording(r), d
     if (const auto q = given_vertex(event)) size = std::max(size, std::min(q->w.stableNorm(), reach));
   if (size == 0) size = 1;
   const bool single = r.settings.scalar == Scalar::float_precision;
-  world = rounding_in_the_world(r);
+  world = rounding_in_the_world(r.scene.scene, r.settings.scalar);
   tolerance = (single ? 1e-4 : 1e-9) * size + world;
   stop = std::max(single ? 1e-3 : 1e-6, 8 * r.settings.tolerance);
   if (!has_supports) return;
@@ -308,8 +301,8 @@ std::vector<Finding> check_steps(const Recording& run, std::size_t first) {
 
 namespace {
 
-std::vector<Finding> judged(const Recording& recording, double unit) {
-  CheckContext context(recording, unit);
+std::vector<Finding> judged(CheckContext context) {
+  const Recording& recording = context.recording;
   TraceCheck trace(context);
   Walk walk(context);
   RecordCheck record(context);
@@ -347,7 +340,7 @@ std::vector<Finding> judged(const Recording& recording, double unit) {
 
 std::vector<Finding> check(const Recording& recording) {
   const std::optional<InOtherUnits> small = in_units_of_its_own(recording);
-  return small ? told_in_units(judged(small->recording, small->unit), *small) : judged(recording, 1);
+  return small ? told_in_units(judged({small->recording, recording, small->unit}), *small) : judged(CheckContext(recording));
 }
 
 std::string findings_to_json(const std::vector<Finding>& findings) {

@@ -129,7 +129,7 @@ struct CastCheck : CastStretch {
   /// What looks along a wall, bounds how fast bodies turn and makes sure that they touch asks supports without a trace: only the same again tells how many.
   void counts() const {
     if (c.recording.generator != generator_name()) return;
-    const Result again = solve(scene, c.recording.settings);
+    const Result again = c.once_more();
     if (result.support_calls != again.support_calls)
       c.find("inconsistent", "The result counts " + std::to_string(result.support_calls) + " support calls; the scene takes " + std::to_string(again.support_calls) + ".", Finding::Severity::warning);
     if (result.intersecting && (result.touching_at.has_value() != again.touching_at.has_value() || std::abs(result.touching_at.value_or(0) - again.touching_at.value_or(0)) > 1e-7))

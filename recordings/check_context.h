@@ -26,12 +26,14 @@ bool contains(const std::vector<int>& list, int x);
 
 class CheckContext {
  public:
-  /// `unit`: what the recording's lengths are told in, in lengths of the file.
-  explicit CheckContext(const Recording& recording, double unit = 1);
+  explicit CheckContext(const Recording& r) : CheckContext(r, r, 1) {}
+  /// A recording in units of its own (see in_units_of_its_own), the same as it was written, and the unit in lengths of that.
+  CheckContext(const Recording& recording, const Recording& written, double unit);
 
   const Recording& recording;
-  const int dimension;
+  const Recording& written;
   const double unit;
+  const int dimension;
   std::size_t step = 0;
   std::map<int, AnyVector> vertices;  ///< w by number
   double size = 0;                    ///< the largest length met: what tolerances are relative to
@@ -63,6 +65,8 @@ class CheckContext {
 
   /// Our own answer to the penetration query, in double precision; computed when first asked for.
   const Result& reference();
+  /// The answer to the scene by the recording's own settings, once more: in the lengths it was written in, as it was found.
+  Result once_more() const;
   /// How far a claimed distance or depth may be from it.
   double answer_tolerance();
 
@@ -115,6 +119,8 @@ class CheckContext {
   int resets_ = 0;
 };
 
+/// What coordinates of the world leave of a length between the bodies of a scene: see check.cpp.
+double rounding_in_the_world(const Scene& scene, Scalar scalar);
 /// How far a point lies outside a body, surely.
 double outside(const Scene& scene, std::size_t body, const AnyVector& point);
 /// What witnesses that are wrong are instead, a sentence; empty where that is not known.

@@ -283,7 +283,7 @@ void RecordCheck::result() {
   const bool more = c_.recording.settings.name == MethodName::sat || c_.recording.settings.name == MethodName::mpr || c_.recording.settings.penetration == Penetration::mpr;
   Number right = more ? std::max<Number>(supports_, r.support_calls) : supports_;
   if (c_.recording.generator == generator_name() && (more || r.contacts || !c_.has_supports)) {
-    const Result again = solve(c_.recording.scene.scene, c_.recording.settings);
+    const Result again = c_.once_more();
     if (more) right = again.support_calls;
     if (r.contacts && again.contacts && again.contacts->size() != r.contacts->size()) contradiction("The result has " + std::to_string(r.contacts->size()) + " contact points; the scene has " + std::to_string(again.contacts->size()) + ".");
     else if (r.contacts && again.contacts && !same_points(*r.contacts, *again.contacts)) contradiction("The contact points are not those of the scene.");

@@ -107,6 +107,12 @@ std::optional<InOtherUnits> in_units_of_its_own(const Recording& recording) {
   return lengths.longest <= 1e75 ? std::optional(std::move(out)) : std::nullopt;  // else it is the recording that is wrong, and as it stands, too
 }
 
+Result CheckContext::once_more() const {
+  Result result = solve(written.scene.scene, written.settings);
+  Lengths{1 / unit}.scale(result);
+  return result;
+}
+
 std::vector<Finding> told_in_units(std::vector<Finding> findings, const InOtherUnits& units) {
   for (Finding& f : findings) f.message += " (Lengths are told in units of " + text_of(units.unit) + ", 2 to the power of " + std::to_string(-units.exponent) + ": the scene is that small.)";
   return findings;
