@@ -67,15 +67,16 @@ bool contains(const std::vector<int>& list, int x) { return std::find(list.begin
 /// A point x of a body at p has coordinates of the world up to r = |p| + |x|, and each of them is rounded: with u = epsilon / 2, the point is off by u r, the sum over a body's
 /// vertices with weights that sum to 1 only so nearly by 4 u r for the weights and 4 u r for the sum, and its height along a direction, three products and two sums, by 3 u r
 /// more. Of two bodies' difference all of this comes together, and the subtraction's own rounding: 13 u (rA + rB), below 8 epsilon (rA + rB). In a cast a body is where its
-/// velocity takes it in the meantime, too.
-double rounding_in_the_world(const Scene& scene, Scalar scalar) {
+/// velocity takes it in the meantime, too. This is of doubles, as files have them, whatever is reckoned in: who rounds to single precision in the world, not in the frame of a body, loses
+/// what need not be lost, and is told so.
+double rounding_in_the_world(const Scene& scene) {
   std::vector<double> reaches;
   for (const Body& b : scene.bodies) reaches.push_back(b.pose.position.stableNorm() + reach_of(b.shape, scene.dimension) + (scene.query == Query::cast && b.motion ? b.motion->velocity.stableNorm() : 0));
   std::sort(reaches.rbegin(), reaches.rend());  // of more than two bodies those farthest out
   if (reaches.size() > 2) reaches.resize(2);
   double sum = 0;
   for (const double reach : reaches) sum += reach;
-  return 8 * (scalar == Scalar::float_precision ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon()) * sum;
+  return 8 * std::numeric_limits<double>::epsilon() * sum;
 }
 
 CheckContext::CheckContext(const Recording& r, const Recording& as_written, double told_in) : recording(r), written(as_written), unit(told_in), dimension(r.scene.scene.dimension), inferred(r.generator.starts_with("a solver under ")) {
@@ -89,7 +90,7 @@ CheckContext::CheckContext(const Recording& r, const Recording& as_written, doub
     if (const auto q = given_vertex(event)) size = std::max(size, std::min(q->w.stableNorm(), reach));
   if (size == 0) size = 1;
   const bool single = r.settings.scalar == Scalar::float_precision;
-  world = rounding_in_the_world(r.scene.scene, r.settings.scalar);
+  world = rounding_in_the_world(r.scene.scene) + 8 * std::numeric_limits<double>::denorm_min() / unit;  // below the normal numbers digits are fewer
   tolerance = (single ? 1e-4 : 1e-9) * size + world;
   stop = std::max(single ? 1e-3 : 1e-6, 8 * r.settings.tolerance);
   if (!has_supports) return;

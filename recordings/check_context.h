@@ -120,7 +120,7 @@ class CheckContext {
 };
 
 /// What coordinates of the world leave of a length between the bodies of a scene: see check.cpp.
-double rounding_in_the_world(const Scene& scene, Scalar scalar);
+double rounding_in_the_world(const Scene& scene);
 /// How far a point lies outside a body, surely.
 double outside(const Scene& scene, std::size_t body, const AnyVector& point);
 /// What witnesses that are wrong are instead, a sentence; empty where that is not known.

@@ -274,7 +274,7 @@ void RecordCheck::result() {
   if (r.signed_distance && r.intersecting != (*r.signed_distance <= 0)) contradiction(std::string("The bodies are called ") + (r.intersecting ? "overlapping" : "apart") + ", at a signed distance of " + text_of(*r.signed_distance) + ".");
   if (r.signed_distance && r.normal && at[0] && at[1]) {
     const double off = AnyVector(*at[1] - *at[0] - *r.signed_distance * *r.normal).stableNorm(), most = std::max(at[0]->stableNorm(), at[1]->stableNorm()) + std::abs(*r.signed_distance);
-    if (off > c_.digits() * most) contradiction("witness_b - witness_a is off signed_distance * normal by " + text_of(off) + ".");
+    if (off > c_.digits() * most + c_.world) contradiction("witness_b - witness_a is off signed_distance * normal by " + text_of(off) + ".");
   }
   if (r.iterations != iterations_) contradiction("The result counts " + std::to_string(r.iterations) + " iterations, the phases " + std::to_string(iterations_) + ".");
   if (c_.recording.scene.scene.query == Query::distance) lower_ = std::max(lower_, 0.0), upper_ = r.intersecting ? unknowable : upper_;

@@ -279,7 +279,7 @@ struct SimulationCheck {
       const AnyVector& n = contact->normal;
       const double overlap = n.dot(a(n, true) - b(-n, true)), behind = n.dot(b(n, true) - a(-n, true));
       c.step = step;
-      const double world = rounding_in_the_world(two, c.recording.settings.scalar);
+      const double world = rounding_in_the_world(two);
       if (std::abs(behind - contact->depth) + 1e-6 * c.size + world < std::abs(overlap - contact->depth))
         c.find("flipped-normal", "Along the normal " + text_of(n) + " of the contact of bodies " + std::to_string(pair[0]) + " and " + std::to_string(pair[1]) + " they overlap by " + text_of(overlap) + ", against it by " + text_of(behind) + ", and the contact is " + text_of(contact->depth) + " deep: it leads from the second to the first.");
       else if (!foreign(c.recording) && !ends_before(c, step).gjk_at_limit && std::abs(overlap - contact->depth) > std::max({1e-6, 100 * c.digits(), c.stop}) * c.size + world)
