@@ -64,7 +64,22 @@ std::string winding_hint(const std::vector<std::vector<int>>& faces) {
 
 bool contains(const std::vector<int>& list, int x) { return std::find(list.begin(), list.end(), x) != list.end(); }
 
-CheckContext::CheckContext(const Recording& r) : recording(r), dimension(r.scene.scene.dimension), inferred(r.generator.starts_with("a solver under ")) {
+/// A point x of a body at p has coordinates of the world up to r = |p| + |x|, and each of them is rounded: with u = epsilon / 2, the point is off by u r, the sum over a body's
+/// vertices with weights that sum to 1 only so nearly by 4 u r for the weights and 4 u r for the sum, and its height along a direction, three products and two sums, by 3 u r
+/// more. Of two bodies' difference all of this comes together, and the subtraction's own rounding: 13 u (rA + rB), below 8 epsilon (rA + rB). In a cast a body is where its
+/// velocity takes it in the meantime, too. This is of doubles, as files have them, whatever is reckoned in: who rounds to single precision in the world, not in the frame of a body, loses
+/// what need not be lost, and is told so.
+double rounding_in_the_world(const Scene& scene) {
+  std::vector<double> reaches;
+  for (const Body& b : scene.bodies) reaches.push_back(b.pose.position.stableNorm() + reach_of(b.shape, scene.dimension) + (scene.query == Query::cast && b.motion ? b.motion->velocity.stableNorm() : 0));
+  std::sort(reaches.rbegin(), reaches.rend());  // of more than two bodies those farthest out
+  if (reaches.size() > 2) reaches.resize(2);
+  double sum = 0;
+  for (const double reach : reaches) sum += reach;
+  return 8 * std::numeric_limits<double>::epsilon() * sum;
+}
+
+CheckContext::CheckContext(const Recording& r, const Recording& as_written, double told_in) : recording(r), written(as_written), unit(told_in), dimension(r.scene.scene.dimension), inferred(r.generator.starts_with("a solver under ")) {
   const auto& bodies = r.scene.scene.bodies;
   const bool moves = r.scene.scene.query == Query::cast || r.scene.scene.query == Query::simulate;
   has_supports = !moves && std::none_of(bodies.begin(), bodies.end(), [](const Body& b) { return std::holds_alternative<Mesh>(b.shape.geometry); });
@@ -75,7 +90,8 @@ CheckContext::CheckContext(const Recording& r) : recording(r), dimension(r.scene
     if (const auto q = given_vertex(event)) size = std::max(size, std::min(q->w.stableNorm(), reach));
   if (size == 0) size = 1;
   const bool single = r.settings.scalar == Scalar::float_precision;
-  tolerance = (single ? 1e-4 : 1e-9) * size;
+  world = rounding_in_the_world(r.scene.scene) + 8 * std::numeric_limits<double>::denorm_min() / unit;  // below the normal numbers digits are fewer
+  tolerance = (single ? 1e-4 : 1e-9) * size + world;
   stop = std::max(single ? 1e-3 : 1e-6, 8 * r.settings.tolerance);
   if (!has_supports) return;
   a_.emplace(bodies[0], dimension), b_.emplace(bodies[1], dimension);
@@ -106,7 +122,7 @@ const Result& CheckContext::reference() {
 
 double CheckContext::answer_tolerance() {
   const Result& r = reference();
-  return stop * std::max(size, std::abs(*r.signed_distance)) + (*r.upper_bound - *r.lower_bound);
+  return stop * std::max(size, std::abs(*r.signed_distance)) + (*r.upper_bound - *r.lower_bound) + world;
 }
 
 double CheckContext::height(const AnyVector& direction) const {
@@ -176,7 +192,8 @@ bool CheckContext::of_few_digits(const AnyVector& given, const AnyVector& right,
   // What single precision leaves of a nearest point: as far away as it should be, and beside it by the root of that.
   const double limit = std::max(1e-5 * right.norm(), 1e-6 * size), beside = std::sqrt(2e-6 * size * (right.norm() + 1e-6 * size));
   bool seven = off <= 1e-5 * right.norm(), single = off <= std::max(limit, beside) && std::abs(given.norm() - right.norm()) <= limit;
-  for (const double x : given) {
+  for (double x : given) {
+    x *= unit;  // as it stands in the file
     char text[32];
     std::snprintf(text, sizeof text, "%.7g", x);
     seven = seven && std::strtod(text, nullptr) == x;
@@ -283,8 +300,10 @@ std::vector<Finding> check_steps(const Recording& run, std::size_t first) {
   return context.take();
 }
 
-std::vector<Finding> check(const Recording& recording) {
-  CheckContext context(recording);
+namespace {
+
+std::vector<Finding> judged(CheckContext context) {
+  const Recording& recording = context.recording;
   TraceCheck trace(context);
   Walk walk(context);
   RecordCheck record(context);
@@ -308,10 +327,21 @@ std::vector<Finding> check(const Recording& recording) {
     check_extent(context, recording.result);
     return context.take();
   }
-  if (recording.result.status != "aborted" || !foreign(recording)) check_result(context, walk.best_plane), record.result();
+  if (recording.result.status != "aborted" || !foreign(recording)) {
+    const bool yes_or_no = distance_out_of_range(context);
+    check_result(context, walk.best_plane, yes_or_no);
+    if (!yes_or_no) record.result();
+  }
   check_extent(context, recording.result);
   check_need(context);
   return context.take();
+}
+
+}  // namespace
+
+std::vector<Finding> check(const Recording& recording) {
+  const std::optional<InOtherUnits> small = in_units_of_its_own(recording);
+  return small ? told_in_units(judged({small->recording, recording, small->unit}), *small) : judged(CheckContext(recording));
 }
 
 std::string findings_to_json(const std::vector<Finding>& findings) {

@@ -16,7 +16,7 @@ struct CastCheck : CastStretch {
   const Result right;  ///< ours, until the first impact
 
   explicit CastCheck(CheckContext& context)
-      : CastStretch{context.recording.scene.scene}, c(context), result(c.recording.result), limit(c.stop * c.size), right(ours()) {}
+      : CastStretch{context.recording.scene.scene}, c(context), result(c.recording.result), limit(c.stop * c.size + c.world), right(ours()) {}
 
   Result ours() const {
     Scene first = scene;
@@ -78,7 +78,7 @@ struct CastCheck : CastStretch {
   void normal_and_witnesses(const Scene& two, double gap) const {
     if (!result.normal) return;
     const AnyVector& n = *result.normal;
-    if (!n.allFinite() || std::abs(n.norm() - 1) > 1e-3) return c.find("wrong-normal", "The normal " + text_of(n) + " has not length 1.");
+    if (const std::string off = c.not_unit(n); !off.empty()) return c.find("wrong-normal", off);
     if (has_mesh(*result.pair)) return;
     if (along(two, n) < gap - 10 * limit) {
       const bool flipped = along(two, -n) >= gap - 10 * limit;
@@ -129,7 +129,7 @@ struct CastCheck : CastStretch {
   /// What looks along a wall, bounds how fast bodies turn and makes sure that they touch asks supports without a trace: only the same again tells how many.
   void counts() const {
     if (c.recording.generator != generator_name()) return;
-    const Result again = solve(scene, c.recording.settings);
+    const Result again = c.once_more();
     if (result.support_calls != again.support_calls)
       c.find("inconsistent", "The result counts " + std::to_string(result.support_calls) + " support calls; the scene takes " + std::to_string(again.support_calls) + ".", Finding::Severity::warning);
     if (result.intersecting && (result.touching_at.has_value() != again.touching_at.has_value() || std::abs(result.touching_at.value_or(0) - again.touching_at.value_or(0)) > 1e-7))

@@ -23,7 +23,7 @@ struct CastWalk : CastStretch {
   const recorded::CastAdvanced* last_advance = nullptr;
 
   explicit CastWalk(CheckContext& context)
-      : CastStretch{context.recording.scene.scene}, c(context), result(c.recording.result), limit(c.stop * c.size), ray(c.recording.settings.name == MethodName::ray_cast), ours(!foreign(c.recording)) {}
+      : CastStretch{context.recording.scene.scene}, c(context), result(c.recording.result), limit(c.stop * c.size + c.world), ray(c.recording.settings.name == MethodName::ray_cast), ours(!foreign(c.recording)) {}
 
   void run() {
     for (std::size_t i = 0; i < c.recording.events.size(); ++i) {
@@ -57,7 +57,7 @@ struct CastWalk : CastStretch {
   void advanced(const recorded::CastAdvanced& e) {
     last_advance = &e;
     if (!exists(e.pair)) return c.find("wrong-pair", "The scene has no " + names_of(e.pair) + ".");
-    if (e.normal.allFinite() && !e.normal.isZero(0) && std::abs(e.normal.norm() - 1) > 1e-5) return c.find("wrong-normal", "The normal " + text_of(e.normal) + " has length " + text_of(e.normal.norm()) + " instead of 1.");
+    if (const std::string off = c.not_unit(e.normal); !off.empty() && e.normal.allFinite() && !e.normal.isZero(0)) return c.find("wrong-normal", off);
     if (!(e.time >= 0 && e.time <= 1)) return c.find("wrong-time", "The time " + text_of(e.time) + " of the step is not of the interval, 0 to 1.");
     if (!e.normal.allFinite() || e.normal.isZero(0)) return;
     const AnyVector n = e.normal.stableNormalized();
@@ -105,7 +105,7 @@ struct CastWalk : CastStretch {
     const Scene two = at(e.pair, e.time);
     const double gap = gap_at(e.pair, e.time);
     if (std::abs(gap) > limit) return c.find("wrong-time", "At time " + text_of(e.time) + " " + names_of(e.pair) + " are said to meet, but they " + (gap > 0 ? "are " + text_of(gap) + " apart." : "overlap by " + text_of(-gap) + "."));
-    if (!e.normal.allFinite() || std::abs(e.normal.norm() - 1) > 1e-5) return c.find("wrong-normal", "The normal " + text_of(e.normal) + " of an impulse has length " + text_of(e.normal.norm()) + " instead of 1.");
+    if (const std::string off = c.not_unit(e.normal, "An impulse's normal"); !off.empty()) return c.find("wrong-normal", off);
     if (const double apart = along(two, e.normal, gap); apart < gap - 10 * limit)
       return c.find(along(two, -e.normal, gap) >= gap - 10 * limit ? "flipped-normal" : "wrong-normal", "Where they meet, " + names_of(e.pair) + " overlap by " + text_of(-apart) + " along the normal " + text_of(e.normal) + " of their impulse.");
     if (ours && !ray && last_advance && last_advance->pair == e.pair && last_advance->normal.size() == e.normal.size() && (last_advance->normal - e.normal).norm() > 1e-9)

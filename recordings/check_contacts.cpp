@@ -21,7 +21,7 @@ RunEnds ends_before(const CheckContext& c, std::size_t contact) {
 /// them; MPR has points of both bodies only where its depth is the right one.
 void check_contact(CheckContext& c, const Scene& two, const recorded::ContactFound& e) {
   const std::string who = "The contact of bodies " + std::to_string(e.pair[0]) + " and " + std::to_string(e.pair[1]) + " at " + text_of(e.point) + ", " + text_of(e.depth) + " deep, ";
-  const double rounding = std::max({1e-6, 100 * c.digits(), c.stop}) * c.size;
+  const double rounding = std::max({1e-6, 100 * c.digits(), c.stop}) * c.size + rounding_in_the_world(two);
   if (!(e.depth >= -rounding)) return c.find("wrong-contact", who + "is none: a depth is not below zero.");
   if (!e.point.allFinite() || !e.normal.allFinite() || std::abs(e.normal.norm() - 1) > 1e-5 || foreign(c.recording)) return;
   const RunEnds ends = ends_before(c, c.step);

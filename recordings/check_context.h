@@ -26,13 +26,18 @@ bool contains(const std::vector<int>& list, int x);
 
 class CheckContext {
  public:
-  explicit CheckContext(const Recording& recording);
+  explicit CheckContext(const Recording& r) : CheckContext(r, r, 1) {}
+  /// A recording in units of its own (see in_units_of_its_own), the same as it was written, and the unit in lengths of that.
+  CheckContext(const Recording& recording, const Recording& written, double unit);
 
   const Recording& recording;
+  const Recording& written;
+  const double unit;
   const int dimension;
   std::size_t step = 0;
   std::map<int, AnyVector> vertices;  ///< w by number
   double size = 0;                    ///< the largest length met: what tolerances are relative to
+  double world = 0;                   ///< absolute, what coordinates of the world leave of a length of this scene by rounding, however small its bodies are
   double tolerance = 1e-9;            ///< absolute, for positions
   double stop = 1e-6;                 ///< relative: how far apart the bounds may be when a phase says it has converged
   bool has_supports = false;          ///< false for meshes: then only what the recording itself holds is judged
@@ -60,6 +65,8 @@ class CheckContext {
 
   /// Our own answer to the penetration query, in double precision; computed when first asked for.
   const Result& reference();
+  /// The answer to the scene by the recording's own settings, once more: in the lengths it was written in, as it was found.
+  Result once_more() const;
   /// How far a claimed distance or depth may be from it.
   double answer_tolerance();
 
@@ -85,6 +92,8 @@ class CheckContext {
   /// The position of a vertex; a finding, and nothing, when it was never handed out.
   const AnyVector* vertex(int number);
   bool check_direction(const AnyVector& d);
+  /// Of what has not the length 1, digits aside (see check_extent.cpp), a sentence that says so; empty for what has. `whose`: "The normal", …
+  std::string not_unit(const AnyVector& normal, const std::string& whose = "The normal") const;
   /// Of a vector off by no more than its own digits: that it was printed with six of them. False for others.
   bool of_few_digits(const AnyVector& given, const AnyVector& right, const std::string& what);
   /// Where a vector is off by no more than single precision leaves of the vertices' places in the world: a sentence that says so.
@@ -110,6 +119,8 @@ class CheckContext {
   int resets_ = 0;
 };
 
+/// What coordinates of the world leave of a length between the bodies of a scene: see check.cpp.
+double rounding_in_the_world(const Scene& scene);
 /// How far a point lies outside a body, surely.
 double outside(const Scene& scene, std::size_t body, const AnyVector& point);
 /// What witnesses that are wrong are instead, a sentence; empty where that is not known.
@@ -276,8 +287,20 @@ class EpaCheck {
 /// A number so large that products of four are none, in an event or in the result: see check_extent.cpp. After every other check of it.
 void check_extent(CheckContext& context, const Event& event);
 void check_extent(CheckContext& context, const Result& result);
-/// The answer against our own.
-void check_result(CheckContext& context, double best_plane);
+/// Before every check of the result: whether its distance is such a number, so that no more than yes or no can be judged.
+bool distance_out_of_range(CheckContext& context);
+/// The answer against our own, or its yes or no alone.
+void check_result(CheckContext& context, double best_plane, bool yes_or_no);
+/// A recording of a scene so small that products of its lengths are none, with all of them told in a unit of which they are a few. Nothing for others.
+struct InOtherUnits {
+  Recording recording;
+  double unit;   ///< 2^-exponent
+  int exponent;
+};
+std::optional<InOtherUnits> in_units_of_its_own(const Recording& recording);
+/// What was found in such a recording: which unit its numbers are told in.
+std::vector<Finding> told_in_units(std::vector<Finding> findings, const InOtherUnits& units);
+
 /// The steps of one run inside a motion, as of a recording of its two bodies at rest: events before `first` stand for nothing.
 std::vector<Finding> check_steps(const Recording& run, std::size_t first);
 /// Whether the run that a contact comes from came to its limit: GJK's distance along its normal is then less than it says, EPA's points may lie beside the bodies.

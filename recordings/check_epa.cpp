@@ -114,8 +114,8 @@ bool EpaCheck::check_normal(int number, const AnyVector& given) {
 /// The plane that is given for a face holds its vertices.
 void EpaCheck::check_plane(int number, const AnyVector& normal, double distance) {
   if (!normal.allFinite() || !std::isfinite(distance)) return;
-  if (!c_.inferred && std::abs(normal.norm() - 1) > 1e-4)  // a solver may leave its normals as long as they come
-    c_.find("wrong-face", "The normal " + text_of(normal) + " of " + name(number) + " has length " + text_of(normal.norm()) + " instead of 1. Expected is " + text_of(faces_[number].normal) + ".");
+  if (const std::string off = c_.inferred ? "" : c_.not_unit(normal, "The normal of " + name(number)); !off.empty())  // a solver may leave its normals as long as they come
+    c_.find("wrong-face", off + " Expected is " + text_of(faces_[number].normal) + ".");
   if (normal.isZero(0)) return c_.find("wrong-face", "The normal of " + name(number) + " is zero. Expected is " + text_of(faces_[number].normal) + ".");
   const AnyVector n = normal.stableNormalized();
   for (const int v : faces_[number].vertices) {

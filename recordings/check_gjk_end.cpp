@@ -48,7 +48,7 @@ std::string GjkCheck::stopping_test(double v, const std::string& nearer) const {
   const std::string times = text_of(std::round(1e4 * product / (v * v)) / 1e4) + " times |v|^2";
   if (share <= 0.1)
     return ended + "Its bounds, " + text_of(lower) + " and " + text_of(upper) + ", differ by " + text_of(std::round(1e6 * share) / 1e4) + " % of the distance: the usual cause is a stopping tolerance that is too coarse. The scene asks for a share of " + text_of(c_.recording.settings.tolerance) + ".";
-  if (product <= 1e-3)
+  if (product * c_.unit * c_.unit <= 1e-3)
     return ended + "|v|^2 - v . w is " + text_of(product) + " there: little in itself, but " + times + ". The usual cause is an absolute tolerance in a scene of such lengths: compare with a share of |v|^2.";
   return ended + "|v|^2 - v . w is " + text_of(product) + " there, " + times + ": that is no reason to stop. The usual cause is a stopping test that compares other things" +
          (w.norm() >= v ? ", such as the length of w, " + text_of(w.norm()) + ", with that of v, " + text_of(v) : "") + ", or a tolerance that is far too coarse; or look at how the simplex was reduced after that (and report it, too, if you give it up).";
@@ -73,7 +73,7 @@ std::string GjkCheck::not_enclosed(const std::vector<int>& simplex, double v) {
   if (w.size() < corners) {
     static constexpr const char* names[] = {"A vertex", "An edge", "A triangle"};
     std::string out = w.empty() || w.size() > 3 ? "" : std::string(" ") + names[w.size() - 1] + " encloses nothing in " + std::to_string(c_.dimension) + "D: at most the origin lies on it, and only to rounding.";
-    if (v <= 0.1 * c_.size || v <= 1e-3) return out + " The usual cause is |v| compared with a tolerance that is too coarse for this scene, of lengths up to " + text_of(c_.size) + ": an absolute one, or one far above rounding.";
+    if (v <= 0.1 * c_.size || v * c_.unit <= 1e-3) return out + " The usual cause is |v| compared with a tolerance that is too coarse for this scene, of lengths up to " + text_of(c_.size) + ": an absolute one, or one far above rounding.";
     return out + " The usual cause is " + (w.size() + 1 == corners && w.size() > 1 ? "a test that is right in fewer dimensions, or " : "") + (queries_ > 16 ? "a limit on iterations taken for an overlap." : "a test of something else than |v| against zero.");
   }
   const int spanned = dimensions_spanned(w, c_.tolerance);

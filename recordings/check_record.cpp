@@ -46,7 +46,7 @@ void RecordCheck::operator()(const Event& event) {
         constexpr bool begins = is_one_of<E, recorded::GjkBegan, recorded::MprBegan, recorded::SatBegan, recorded::ProjectionsBegan, recorded::PolytopeSeeded>;
         if constexpr (begins) counted_ = true, iteration_ = std::is_same_v<E, recorded::GjkBegan> ? -1 : 0;
         if constexpr (requires { e.iteration; } && !is_one_of<E, recorded::CastAdvanced, recorded::CastEnded>) {
-          const int right = right_iteration(e);
+          const Number right = right_iteration(e);
           if constexpr (std::is_same_v<E, recorded::SupportQueried>) counted_ |= e.phase == Phase::seed;
           if (counted_ && e.iteration != right) contradiction("Iteration " + std::to_string(e.iteration) + " is in the place of iteration " + std::to_string(right) + ".");
           iteration_ = e.iteration;
@@ -78,9 +78,9 @@ void RecordCheck::theirs(const Event& event) {
 /// A support begins the next iteration and two points projected the next round; all else belongs to the one that runs. The supports that complete
 /// EPA's first polytope are before its first.
 template <class E>
-int RecordCheck::right_iteration(const E& e) const {
+RecordCheck::Number RecordCheck::right_iteration(const E& e) const {
   if constexpr (std::is_same_v<E, recorded::SupportQueried>) return e.phase == Phase::seed ? 0 : e.phase == Phase::projections ? iteration_ : iteration_ + 1;
-  else return std::max(0, iteration_) + (std::is_same_v<E, recorded::PointsProjected> ? 1 : 0);
+  else return std::max<Number>(0, iteration_) + (std::is_same_v<E, recorded::PointsProjected> ? 1 : 0);
 }
 
 /// Ours looks exactly where the step before leads.
@@ -89,7 +89,7 @@ void RecordCheck::leads_on(const AnyVector& direction, const AnyVector& from, co
   if ((direction.stableNormalized() - from.stableNormalized()).norm() > slack) contradiction("The direction is " + text_of(direction) + ", but " + what + " leads along " + text_of(from) + ".");
 }
 
-void RecordCheck::next_in_line(const char* what, int number, int& last) {
+void RecordCheck::next_in_line(const char* what, Number number, Number& last) {
   if (number != last + 1) contradiction(what + std::to_string(number) + " comes after number " + std::to_string(last) + ": they are numbered one after the other.");
   last = number;
 }
@@ -183,7 +183,7 @@ void RecordCheck::judge(const recorded::GjkEnded& e) {
 void RecordCheck::add(const std::vector<recorded::Face>& faces, bool in_line) {
   for (const recorded::Face& f : faces) {
     if (in_line) next_in_line("Face ", f.face, last_face_);
-    last_face_ = std::max(last_face_, f.face);
+    last_face_ = std::max<Number>(last_face_, f.face);
     faces_[f.face] = f, standing_.insert(f.face);
     const std::string name = "Face " + std::to_string(f.face) + ", " + list_of(f.vertices) + ", ";
     if (static_cast<int>(f.vertices.size()) != c_.dimension) contradiction(name + "has " + std::to_string(f.vertices.size()) + " vertices instead of " + std::to_string(c_.dimension) + ".");
@@ -273,17 +273,17 @@ void RecordCheck::result() {
   const AnyVector* at[] = {r.witness_a ? &*r.witness_a : nullptr, r.witness_b ? &*r.witness_b : nullptr};
   if (r.signed_distance && r.intersecting != (*r.signed_distance <= 0)) contradiction(std::string("The bodies are called ") + (r.intersecting ? "overlapping" : "apart") + ", at a signed distance of " + text_of(*r.signed_distance) + ".");
   if (r.signed_distance && r.normal && at[0] && at[1]) {
-    const double off = (*at[1] - *at[0] - *r.signed_distance * *r.normal).norm(), most = std::max(at[0]->norm(), at[1]->norm()) + std::abs(*r.signed_distance);
-    if (off > c_.digits() * most) contradiction("witness_b - witness_a is off signed_distance * normal by " + text_of(off) + ".");
+    const double off = AnyVector(*at[1] - *at[0] - *r.signed_distance * *r.normal).stableNorm(), most = std::max(at[0]->stableNorm(), at[1]->stableNorm()) + std::abs(*r.signed_distance);
+    if (off > c_.digits() * most + c_.world) contradiction("witness_b - witness_a is off signed_distance * normal by " + text_of(off) + ".");
   }
   if (r.iterations != iterations_) contradiction("The result counts " + std::to_string(r.iterations) + " iterations, the phases " + std::to_string(iterations_) + ".");
   if (c_.recording.scene.scene.query == Query::distance) lower_ = std::max(lower_, 0.0), upper_ = r.intersecting ? unknowable : upper_;
   if (c_.has_supports && r.lower_bound && r.upper_bound) same_bounds("The result's", *r.lower_bound, *r.upper_bound);
   // Which points meet is looked for without a trace, contact points are, and of meshes the parts are put together: only the same again tells.
   const bool more = c_.recording.settings.name == MethodName::sat || c_.recording.settings.name == MethodName::mpr || c_.recording.settings.penetration == Penetration::mpr;
-  int right = more ? std::max(supports_, r.support_calls) : supports_;
+  Number right = more ? std::max<Number>(supports_, r.support_calls) : supports_;
   if (c_.recording.generator == generator_name() && (more || r.contacts || !c_.has_supports)) {
-    const Result again = solve(c_.recording.scene.scene, c_.recording.settings);
+    const Result again = c_.once_more();
     if (more) right = again.support_calls;
     if (r.contacts && again.contacts && again.contacts->size() != r.contacts->size()) contradiction("The result has " + std::to_string(r.contacts->size()) + " contact points; the scene has " + std::to_string(again.contacts->size()) + ".");
     else if (r.contacts && again.contacts && !same_points(*r.contacts, *again.contacts)) contradiction("The contact points are not those of the scene.");

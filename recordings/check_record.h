@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
@@ -22,17 +23,18 @@ class RecordCheck {
   /// After every other check of the event: what those find is nearer to the cause.
   void operator()(const Event& event);
   void result();
-  void goes_on(int first) { newest_ = first - 1; }  ///< a run inside a motion has its vertices numbered from there
+  void goes_on(int first) { newest_ = Number{first} - 1; }  ///< a run inside a motion has its vertices numbered from there
   void motion();  ///< the counts of a cast's or a simulation's result
 
  private:
+  using Number = std::int64_t;  ///< of what is counted: a recording may hold any `int`, and what follows one, or a sum of them, is none
   static constexpr double unknown = std::numeric_limits<double>::infinity(), unknowable = std::numeric_limits<double>::quiet_NaN();  // from the events
   void contradiction(const std::string& message);
   void theirs(const Event& event);
   template <class E>
-  int right_iteration(const E& e) const;
+  Number right_iteration(const E& e) const;
   void leads_on(const AnyVector& direction, const AnyVector& from, const char* what, double slack = 1e-12);
-  void next_in_line(const char* what, int number, int& last);
+  void next_in_line(const char* what, Number number, Number& last);
   bool differ(double said, double right) const;
   bool same_points(const std::vector<ContactPoint>& x, const std::vector<ContactPoint>& y) const;
   void bound(const char* whose, double said, double right);
@@ -75,13 +77,13 @@ class RecordCheck {
   CheckContext& c_;
   const bool ours_;
   AnyVector first_;  ///< the direction GJK says it begins with, until it has
-  int iterations_ = 0, supports_ = 0, newest_ = -1, last_face_ = -1;
+  Number iterations_ = 0, supports_ = 0, newest_ = -1, last_face_ = -1;
   std::set<std::string> statuses_;            ///< of the phases that ended
   std::string_view last_status_;              ///< of these
   std::optional<double> nearest_projected_;   ///< how far apart the bodies are by the points projected last
   std::pair<double, double> projected_bounds_;  ///< that they prove, of SAT
   std::set<std::string_view> methods_;        ///< that have begun, GJK aside; and warnings that say why one has not
-  int iteration_ = 0;                         ///< of the phase, so far
+  Number iteration_ = 0;                      ///< of the phase, so far
   bool counted_ = false;                      ///< whether it was seen to begin
   std::vector<int> simplex_, asked_;          ///< GJK's: kept, and asked for since; newest first
   AnyVector towards_, chosen_normal_, from_interior_;  ///< where the next support leads: from GJK's nearest point, across EPA's face, from MPR's inner point
@@ -96,10 +98,10 @@ class RecordCheck {
   std::map<int, recorded::Face> faces_;       ///< EPA's, those removed too
   std::set<int> standing_, chosen_;           ///< of these
   double height_ = 0;                         ///< the least along the normals chosen
-  std::array<int, 3> axes_{};                 ///< SAT's, by source: how many may still come
+  std::array<Number, 3> axes_{};              ///< SAT's, by source: how many may still come
   std::optional<recorded::ClosedFormBegan> segments_;
   std::vector<Edge> pairs_;                   ///< of the bodies that a cast looks at
-  int cast_iteration_ = 0, ray_iteration_ = 0;  ///< so far
+  Number cast_iteration_ = 0, ray_iteration_ = 0;  ///< so far
   double cast_time_ = 0;
   bool responded_ = false;                    ///< whether bodies move otherwise than the scene says
   std::optional<double> radius_between_;      ///< of motions and meshes: between the vertices' difference and that of the bodies, where every pair has the same

@@ -73,8 +73,7 @@ void RecordCheck::judge(const recorded::PortalFound& e) {
 }
 void RecordCheck::judge(const recorded::MprEnded& e) {
   statuses_.emplace(word_of(e.status)), last_status_ = word_of(e.status);
-  const double length = e.normal.norm();
-  if (std::abs(length - 1) > 1e-4) contradiction("The normal " + text_of(e.normal) + " has length " + text_of(length) + " instead of 1.");
+  if (const std::string off = c_.not_unit(e.normal); !off.empty()) contradiction(off);
   const bool apart = e.status == MprStatus::separated;
   if (e.status != MprStatus::flat && (apart ? e.depth > c_.tolerance : e.depth < -c_.tolerance)) contradiction("MPR ended as \"" + std::string(last_status_) + "\", with a depth of " + text_of(e.depth) + ".");
   // "Overlapping" is known by a portal, or by a vertex that the ray from the inner point hits.
@@ -87,7 +86,7 @@ void RecordCheck::judge(const recorded::MprEnded& e) {
 }
 
 /// A pair of edges of which one has no faces beside it is an axis both ways.
-void RecordCheck::judge(const recorded::SatBegan& e) { methods_.insert(e.kind), axes_ = {e.faces_a, e.faces_b, 2 * e.edge_pairs}, plane_ = -unknown, nearest_projected_.reset(); }
+void RecordCheck::judge(const recorded::SatBegan& e) { methods_.insert(e.kind), axes_ = {e.faces_a, e.faces_b, 2 * Number{e.edge_pairs}}, plane_ = -unknown, nearest_projected_.reset(); }
 void RecordCheck::judge(const recorded::AxisTested& e) {
   leads_on(e.direction, axis_, "its support");
   if (e.vertex != newest_) contradiction("Vertex " + std::to_string(e.vertex) + " is said to be the farthest along the axis, but the last one asked for is " + std::to_string(newest_) + ".");
@@ -97,7 +96,7 @@ void RecordCheck::judge(const recorded::AxisTested& e) {
   if (--axes_[static_cast<std::size_t>(e.source)] < 0) contradiction("More axes of \"" + std::string(word_of(e.source)) + "\" are tested than there are said to be.");
 }
 void RecordCheck::judge(const recorded::SatEnded& e) {
-  if (std::abs(e.normal.norm() - 1) > 1e-4) contradiction("The normal " + text_of(e.normal) + " has length " + text_of(e.normal.norm()) + " instead of 1.");
+  if (const std::string off = c_.not_unit(e.normal); !off.empty()) contradiction(off);
   if (e.status != SatStatus::separated && axes_[0] + axes_[1] > 0) contradiction(std::to_string(axes_[0] + axes_[1]) + " faces have not been looked along, and no axis separates.");
   statuses_.emplace(word_of(e.status)), last_status_ = word_of(e.status);
   const bool known = c_.has_supports || radius_between_;
@@ -196,7 +195,7 @@ void RecordCheck::judge(const recorded::CastBegan& e) {
 void RecordCheck::judge(const recorded::CastAdvanced& e) {
   if (!looked_at(pairs_, e.pair)) return contradiction("Bodies " + std::to_string(e.pair[0]) + " and " + std::to_string(e.pair[1]) + " are none of the cast's pairs.");
   const bool ray = c_.recording.settings.name == MethodName::ray_cast;
-  int& before = ray ? ray_iteration_ : cast_iteration_;
+  Number& before = ray ? ray_iteration_ : cast_iteration_;
   if ((e.iteration != before && (ray || e.iteration != before + 1)) || e.iteration < 1) contradiction("Iteration " + std::to_string(e.iteration) + " of the cast comes after iteration " + std::to_string(before) + ".");
   if (!ray && (e.iteration == before ? e.time != cast_time_ : e.time < cast_time_)) contradiction("Time " + text_of(e.time) + " comes after time " + text_of(cast_time_) + ": a round of the cast has one time, and none is before the last.");
   before = e.iteration, cast_time_ = e.time;
@@ -224,7 +223,7 @@ void RecordCheck::motion() {
   if (!r.time || (simulated && !r.energy)) contradiction(std::string("The result has no \"") + (r.time ? "energy" : "time") + "\".");
   const std::string right_status = contact_unknown_ ? "contact_unknown" : "completed";
   if (simulated && r.status != right_status) contradiction("The result's status is \"" + r.status + "\", but a simulation runs to its end, " + (contact_unknown_ ? "though not every contact is known" : "and every contact is known") + ": \"" + right_status + "\".");
-  if (const int right = simulated ? iterations_ : cast_iterations_.value_or(r.iterations); r.iterations != right) contradiction("The result counts " + std::to_string(r.iterations) + " iterations, the steps " + std::to_string(right) + ".");
+  if (const Number right = simulated ? iterations_ : cast_iterations_.value_or(r.iterations); r.iterations != right) contradiction("The result counts " + std::to_string(r.iterations) + " iterations, the steps " + std::to_string(right) + ".");
   if (r.support_calls < supports_) contradiction("The result counts " + std::to_string(r.support_calls) + " support calls, but " + std::to_string(supports_) + " were made.");
 }
 

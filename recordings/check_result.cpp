@@ -98,8 +98,8 @@ struct Judge {
     const AnyVector& n = *r.normal;
     const double sd = *right.signed_distance;
     if (c.recording.scene.scene.query == Query::distance && sd <= 0) return;
-    if (std::abs(n.norm() - 1) > 1e-3) {
-      c.find("wrong-normal", "The normal " + text_of(n) + " has length " + text_of(n.norm()) + " instead of 1.");
+    if (const std::string off = c.not_unit(n); !off.empty()) {
+      c.find("wrong-normal", off);
       c.explained("wrong-normal");
       return;
     }
@@ -158,9 +158,9 @@ struct Judge {
   void length(const AnyVector& between) const {
     if (limited || unanswered(r)) return;
     const bool common = c.recording.scene.scene.query == Query::distance && r.intersecting;
-    const double said = std::abs(r.signed_distance.value_or(common ? 0 : *right.signed_distance)), off = std::abs(between.norm() - said);
-    if (off <= 10 * c.answer_tolerance() || (common && std::abs(between.norm() - std::abs(*right.signed_distance)) <= 10 * c.answer_tolerance())) return;
-    c.find("wrong-witness", "The witness points are " + text_of(between.norm()) + " from each other, " + (common && said == 0 ? "but the bodies overlap: where only the distance is asked for, they are one point of both." : "but the bodies are " + text_of(said) + (*right.signed_distance > 0 ? " apart." : " deep.")) + mistaken("", " "));
+    const double said = std::abs(r.signed_distance.value_or(common ? 0 : *right.signed_distance)), length = between.stableNorm(), off = std::abs(length - said);
+    if (off <= 10 * c.answer_tolerance() || (common && std::abs(length - std::abs(*right.signed_distance)) <= 10 * c.answer_tolerance())) return;
+    c.find("wrong-witness", "The witness points are " + text_of(length) + " from each other, " + (common && said == 0 ? "but the bodies overlap: where only the distance is asked for, they are one point of both." : "but the bodies are " + text_of(said) + (*right.signed_distance > 0 ? " apart." : " deep.")) + mistaken("", " "));
   }
 
   /// What the witnesses are instead, where that can be told; else the usual cause.
@@ -184,7 +184,7 @@ struct Judge {
       for (std::size_t before = 0; before < i; ++before)
         if (const ContactPoint& q = (*r.contacts)[before]; (p.point_a - q.point_a).norm() <= 1e-9 * c.size && (p.point_b - q.point_b).norm() <= 1e-9 * c.size)  // in single precision, too: neighbours may be as near as that rounds
           c.find("wrong-contact", name + "is point " + std::to_string(before) + " again.", Finding::Severity::warning);
-      const double off = r.normal ? (p.point_b - p.point_a + p.depth * *r.normal).norm() : std::abs((p.point_b - p.point_a).norm() - std::abs(p.depth));
+      const double off = r.normal ? AnyVector(p.point_b - p.point_a + p.depth * *r.normal).stableNorm() : std::abs(AnyVector(p.point_b - p.point_a).stableNorm() - std::abs(p.depth));
       const double out = std::max(outside(scene, 0, p.point_a), outside(scene, 1, p.point_b));
       if (off > slack) c.find("wrong-contact", name + "is off by " + text_of(off) + ": point_b - point_a is -depth * normal.");
       else if (out > slack) c.find("wrong-contact", name + "lies " + text_of(out) + " outside one of the bodies.");
@@ -195,7 +195,7 @@ struct Judge {
 
 }  // namespace
 
-void check_result(CheckContext& c, double best_plane) {
+void check_result(CheckContext& c, double best_plane, bool yes_or_no) {
   const Recording& recording = c.recording;
   // MPR's depth is an upper bound by design.
   const bool portal = recording.settings.penetration == Penetration::mpr && recording.result.intersecting;
@@ -210,6 +210,7 @@ void check_result(CheckContext& c, double best_plane) {
   const bool any_way = c.inferred && portal && recording.settings.name == MethodName::mpr && *right.signed_distance <= 0;
   const Judge judge{c, recording.result, right, limit, portal && !exact && !c.inferred, limited, any_way};  // a solver may answer a scene of MPR by other means
   judge.answer(best_plane);
+  if (yes_or_no) return;
   judge.distance();
   judge.bounds();
   judge.normal();

@@ -218,8 +218,8 @@ struct SimulationCheck {
         const auto i = static_cast<std::size_t>(k);
         const double off = std::min((e.point - before.bodies[i].position).norm(), (e.point - now.bodies[i].position).norm());
         const double reach = reach_of(scene.bodies[i].shape, scene.dimension), moves = 2 * h * (before.bodies[i].velocity.norm() + now.bodies[i].velocity.norm());
-        if (std::abs(e.normal.norm() - 1) > 1e-5) return c.find("wrong-normal", std::string(what) + "'s normal " + text_of(e.normal) + " has length " + text_of(e.normal.norm()) + " instead of 1.");
-        if (off > reach + deepest / 2 + moves + 1e-6 * c.size) return c.find("wrong-contact", std::string(what) + " is at " + text_of(e.point) + ", " + text_of(off) + " from body " + std::to_string(k) + ", which reaches " + text_of(reach) + ".");
+        if (const std::string length = c.not_unit(e.normal, std::string(what) + "'s normal"); !length.empty()) return c.find("wrong-normal", length);
+        if (off > reach + deepest / 2 + moves + 1e-6 * c.size + c.world) return c.find("wrong-contact", std::string(what) + " is at " + text_of(e.point) + ", " + text_of(off) + " from body " + std::to_string(k) + ", which reaches " + text_of(reach) + ".");
       }
     };
     const std::size_t here = c.step;
@@ -279,9 +279,10 @@ struct SimulationCheck {
       const AnyVector& n = contact->normal;
       const double overlap = n.dot(a(n, true) - b(-n, true)), behind = n.dot(b(n, true) - a(-n, true));
       c.step = step;
-      if (std::abs(behind - contact->depth) + 1e-6 * c.size < std::abs(overlap - contact->depth))
+      const double world = rounding_in_the_world(two);
+      if (std::abs(behind - contact->depth) + 1e-6 * c.size + world < std::abs(overlap - contact->depth))
         c.find("flipped-normal", "Along the normal " + text_of(n) + " of the contact of bodies " + std::to_string(pair[0]) + " and " + std::to_string(pair[1]) + " they overlap by " + text_of(overlap) + ", against it by " + text_of(behind) + ", and the contact is " + text_of(contact->depth) + " deep: it leads from the second to the first.");
-      else if (!foreign(c.recording) && !ends_before(c, step).gjk_at_limit && std::abs(overlap - contact->depth) > std::max({1e-6, 100 * c.digits(), c.stop}) * c.size)
+      else if (!foreign(c.recording) && !ends_before(c, step).gjk_at_limit && std::abs(overlap - contact->depth) > std::max({1e-6, 100 * c.digits(), c.stop}) * c.size + world)
         c.find("wrong-contact", "Along the normal " + text_of(n) + " bodies " + std::to_string(pair[0]) + " and " + std::to_string(pair[1]) + " overlap by " + text_of(overlap) + "; their contact is " + text_of(contact->depth) + " deep.");
     }
   }

@@ -154,10 +154,7 @@ void TraceCheck::bounds(double lower, double upper) {
 void TraceCheck::along(const AnyVector& normal, double distance) {
   if (!c_.has_supports || c_.inferred || normal.isZero(0)) return;
   if (!normal.allFinite()) return c_.find("non-finite-direction", "The direction " + text_of(normal) + " holds what is no number.");
-  if (std::abs(normal.norm() - 1) > 1e-4) {
-    c_.find("wrong-normal", "The normal " + text_of(normal) + " has length " + text_of(normal.norm()) + " instead of 1.");
-    return;
-  }
+  if (const std::string off = c_.not_unit(normal); !off.empty()) return c_.find("wrong-normal", off);
   const double limit = c_.answer_tolerance();
   if (std::abs(-c_.body_height(normal) - distance) <= limit) return;
   const std::string said = "Along the normal " + text_of(normal) + " the bodies are said to be " + text_of(distance) + " apart (negative: overlapping), but they are " + text_of(-c_.body_height(normal));

@@ -17,7 +17,7 @@ struct Witnesses {
   AnyVector normal = r.normal.value_or(*right.normal);
   double exact = std::max(c.tolerance, 1e-6 * c.size);  ///< a point is the same as another
 
-  bool same(const AnyVector& x, const AnyVector& y) const { return (x - y).norm() <= exact + c.digits() * (x.norm() + y.norm()); }
+  bool same(const AnyVector& x, const AnyVector& y) const { return AnyVector(x - y).stableNorm() <= exact + c.digits() * (x.stableNorm() + y.stableNorm()); }
   const std::optional<AnyVector>& told(std::size_t body) const { return body == 0 ? r.witness_a : r.witness_b; }
 
   /// Not on its body, or its partner across the gap is not on the other.

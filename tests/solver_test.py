@@ -80,6 +80,16 @@ class Solver(unittest.TestCase):
     def test_python_kit_is_clean_on_the_gallery(self):
         self.clean_on_the_gallery(f"/usr/bin/python3 {KIT}")
 
+    def test_python_kit_does_the_same_every_time(self):
+        """Where many faces meet, the order of a set's members would tell, and that is another in every run."""
+        with tempfile.TemporaryDirectory() as folder:
+            runs = []
+            for i in range(3):
+                path = pathlib.Path(folder, f"{i}.json")
+                subprocess.run([PROGRAM, "run", "spheres-deep", "--exec", f"/usr/bin/python3 {KIT}", "-o", str(path)], capture_output=True)
+                runs.append(path.read_text())
+            self.assertEqual(runs[1:], runs[:1] * 2)
+
     def test_directions_of_any_length(self):
         """Squares of these overflow or vanish."""
         with tempfile.TemporaryDirectory() as folder:

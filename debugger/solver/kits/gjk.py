@@ -162,7 +162,7 @@ def epa(simplex, dimension, tolerance):
             break
         seen = [f for f in faces if dot(f[1], w.w) > f[2] + rounding]
         # The horizon: what belongs to one removed face only.
-        ridges = [frozenset(r) for f in seen for r in combinations(f[0], dimension - 1)]
+        ridges = [tuple(sorted(r, key=lambda x: x.number)) for f in seen for r in combinations(f[0], dimension - 1)]
         horizon = [r for r in ridges if ridges.count(r) == 1]
         new = [list(r) + [w] for r in horizon]
         planes = [plane(f, inside) for f in new]

@@ -1,0 +1,121 @@
+// check, scenes so small that squares of their lengths are zero, as those of 1e-200 are: they are judged in units of their own.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+#include "recordings/check_context.h"
+#include "shapes/convex.h"
+
+namespace gjkdbg {
+namespace {
+
+/// Of lengths up to this products of four have lost nothing yet: 1e-240, and of parts a trillion times smaller they are numbers all the same.
+constexpr double least_length = 1e-60;
+
+/// Multiplies all lengths, and what is one per unit of time, by a power of two, which rounds nothing on the way up.
+struct Lengths {
+  double by;
+  double longest = 0;  ///< so far
+
+  void scale(double& x) {
+    if (!std::isfinite(x)) return;  // not known, still
+    x *= by, longest = std::max(longest, std::abs(x));
+  }
+  void scale(AnyVector& v) {
+    for (double& x : v) scale(x);
+  }
+  void scale(std::vector<SimplexPoint>& simplex) {
+    for (SimplexPoint& p : simplex) scale(p.a), scale(p.b);
+  }
+  template <class T>
+  void scale(std::optional<T>& x) {
+    if (x) scale(*x);
+  }
+  template <class T>
+  void scale(std::vector<T>& list) {
+    for (T& x : list) scale(x);
+  }
+  template <class E>
+    requires requires { E::fields(); }
+  void scale(E& e) {
+    // A direction's length means nothing, and the rest are none. (What a cast calls energy and momentum is zero.)
+    const auto none = [](std::string_view name) {
+      for (const std::string_view other : {"direction", "normal", "barycentric", "time", "s", "t", "energy", "orientation", "angular_velocity"})
+        if (name == other) return true;
+      return false;
+    };
+    const auto one = [&](const auto& f) {
+      if (!none(f.name)) scale(e.*f.member);
+    };
+    std::apply([&](const auto&... f) { (one(f), ...); }, E::fields());
+  }
+  template <class T>
+  void scale(T&) {}  // numbers of things, words
+
+  void scale(Shape& shape) {
+    scale(shape.margin);
+    std::visit(
+        [this](auto& g) {
+          using G = std::decay_t<decltype(g)>;
+          if constexpr (requires { g.radius; }) scale(g.radius);
+          if constexpr (requires { g.half_height; }) scale(g.half_height);
+          if constexpr (requires { g.radii; }) scale(g.radii);
+          if constexpr (requires { g.points; }) scale(g.points);
+          if constexpr (std::is_same_v<G, Box>) scale(g.min), scale(g.max);
+          if constexpr (std::is_same_v<G, Sum>) {
+            for (std::shared_ptr<const Shape>* part : {&g.first, &g.second}) {
+              auto copy = std::make_shared<Shape>(**part);
+              scale(*copy), *part = std::move(copy);
+            }
+          }
+        },
+        shape.geometry);
+  }
+  void scale(Body& body) {
+    scale(body.shape), scale(body.pose.position);
+    if (body.motion) scale(body.motion->velocity);
+  }
+  void scale(Result& r) {
+    scale(r.signed_distance), scale(r.lower_bound), scale(r.upper_bound), scale(r.witness_a), scale(r.witness_b);
+    if (r.contacts)
+      for (ContactPoint& p : *r.contacts) scale(p.point_a), scale(p.point_b), scale(p.depth);
+    if (r.bodies)
+      for (FinalState& body : *r.bodies) scale(body.position), scale(body.velocity);
+  }
+};
+
+}  // namespace
+
+std::optional<InOtherUnits> in_units_of_its_own(const Recording& recording) {
+  const Scene& scene = recording.scene.scene;
+  if (scene.query == Query::simulate) return std::nullopt;  // of which energies are products already
+  double size = 0;
+  for (const Body& body : scene.bodies) {
+    size = std::max({size, size_of(body.shape), body.pose.position.cwiseAbs().maxCoeff()});
+    if (body.motion && body.motion->velocity.size() > 0) size = std::max(size, body.motion->velocity.cwiseAbs().maxCoeff());
+  }
+  if (size == 0 || size > least_length) return std::nullopt;
+  const int exponent = std::min(-std::ilogb(size), 1000);  // below the normal numbers 2^1000 is near enough, and a number
+  InOtherUnits out{recording, std::ldexp(1.0, -exponent), exponent};
+  Lengths lengths{1 / out.unit};
+  for (Body& body : out.recording.scene.scene.bodies) lengths.scale(body);
+  lengths.scale(out.recording.settings.initial_simplex);
+  for (Event& event : out.recording.events) std::visit([&](auto& e) { lengths.scale(e); }, event);
+  lengths.scale(out.recording.result);
+  return lengths.longest <= 1e75 ? std::optional(std::move(out)) : std::nullopt;  // else it is the recording that is wrong, and as it stands, too
+}
+
+Result CheckContext::once_more() const {
+  Result result = solve(written.scene.scene, written.settings);
+  Lengths{1 / unit}.scale(result);
+  return result;
+}
+
+std::vector<Finding> told_in_units(std::vector<Finding> findings, const InOtherUnits& units) {
+  for (Finding& f : findings) f.message += " (Lengths are told in units of " + text_of(units.unit) + ", 2 to the power of " + std::to_string(-units.exponent) + ": the scene is that small.)";
+  return findings;
+}
+
+}  // namespace gjkdbg
