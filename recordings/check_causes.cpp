@@ -89,7 +89,23 @@ void CheckContext::tell_what_to_report(Finding& root) const {
   else if (of_the_depth) root.message += " Of the search for the depth nothing was reported: report EPA's polytope and the faces chosen, and the step that goes wrong can be named.";
 }
 
+/// What goes round and round, and then ends by itself with the right answer, has cost time and no more.
+void CheckContext::soften_what_only_costs() {
+  static const std::set<std::string_view> costs{"no-progress", "cycle"};
+  const Result& r = recording.result;
+  if (!foreign(recording) || r.status.empty() || r.status == "iteration_limit" || unanswered(r)) return;
+  if (std::any_of(findings_.begin(), findings_.end(), [&](const Finding& f) { return f.severity == Finding::Severity::error && !costs.contains(f.code); })) return;
+  for (Finding& f : findings_) {
+    if (!costs.contains(f.code)) continue;
+    f.severity = Finding::Severity::warning;
+    for (const std::string_view endless : {"the search will never end", "EPA will never end", "it will never end"})
+      if (const std::size_t at = f.message.find(endless); at != std::string::npos) f.message.replace(at, endless.size(), "nothing is gained by it");
+    f.message += " It ended all the same, and with the right answer: here it merely costs.";
+  }
+}
+
 std::vector<Finding> CheckContext::take() {
+  soften_what_only_costs();
   const auto is_error = [](const Finding& f) { return f.severity == Finding::Severity::error; };
   const auto by_step = [](const Finding& x, const Finding& y) { return x.step < y.step; };
   std::stable_sort(findings_.begin(), findings_.end(), [&](const Finding& x, const Finding& y) { return x.step != y.step ? x.step < y.step : is_error(x) && !is_error(y); });

@@ -55,6 +55,9 @@ class CheckContext {
   /// near that of the one farthest apart along the direction.
   double apart_along(const AnyVector& direction);
 
+  /// What a wrong distance leaves out, or takes off twice: the radii and margins of both bodies, or of one. A sentence, or empty.
+  std::string forgotten_radii(double given);
+
   /// How far a point is from being a support of a body along a unit direction, or of its core: short of it, or beside the body.
   double short_of_support(std::size_t body, const AnyVector& direction, const AnyVector& point) const;
 
@@ -62,6 +65,9 @@ class CheckContext {
   const Result& reference();
   /// How far a claimed distance or depth may be from it.
   double answer_tolerance();
+
+  /// Whether another program's result has the right distance, and the wrong yes or no beside it: these contradict each other, and the search was right.
+  bool denies_its_distance();
 
   /// Adds a finding at this step.
   void find(const char* code, const std::string& message, Finding::Severity severity = Finding::Severity::error);
@@ -96,6 +102,7 @@ class CheckContext {
  private:
   std::optional<std::size_t> last_simplex() const;
   void put_causes_first();
+  void soften_what_only_costs();
   std::optional<Finding> cause_of(const Finding& root) const;
   void tell_what_to_report(Finding& root) const;
 
@@ -115,6 +122,9 @@ double outside(const Scene& scene, std::size_t body, const AnyVector& point);
 /// What witnesses that are wrong are instead, a sentence; empty where that is not known.
 std::string mistaken_witnesses(CheckContext& context, double slack);
 
+/// Yes or no where the bodies touch, or miss it by less than distances are judged by; `best_plane` as in GjkCheck, over the whole recording.
+void check_touching(CheckContext& context, double best_plane);
+
 /// What holds for every event: phases end once, numbers are given out once, supports are supports, bounds hold the answer.
 class TraceCheck {
  public:
@@ -131,6 +141,7 @@ class TraceCheck {
   void given(int number, bool is_new, const char* what);
   bool belong_together(const AnyVector& a, const AnyVector& b, const AnyVector& w);
   std::string support_hint(std::size_t body, const AnyVector& direction, const AnyVector& point) const;
+  std::string beside_body(std::size_t body, double out, bool turned) const;
   double far_out(const AnyVector& a, const AnyVector& b) const;
   void bounds(double lower, double upper);
   void along(const AnyVector& normal, double distance);
@@ -195,6 +206,7 @@ class GjkCheck {
   bool goes_on_to_epa() const;
   void check_towards_origin(const AnyVector& direction);
   void check_progress(const recorded::SupportQueried& e);
+  bool given_up(int vertex, const std::vector<int>& region);
   void check_region(const recorded::SimplexReduced& e);
   void check_no_more_kept(const std::vector<int>& region, const std::vector<AnyVector>& kept);
   void check_closest(const recorded::SimplexReduced& e);
@@ -232,6 +244,7 @@ class EpaCheck {
   void operator()(const recorded::FaceChosen& e);
   void operator()(const recorded::PolytopeGrown& e);
   void operator()(const recorded::EpaEnded& e);
+  void finish();
 
  private:
   struct Face {
@@ -256,6 +269,7 @@ class EpaCheck {
   std::string winding_of(const std::map<int, Face>& faces) const;
   void check_convex(const std::vector<recorded::Face>& added, std::optional<int> newest);
   void check_origin();
+  void check_grown_last(const recorded::EpaEnded& e);
   std::vector<std::pair<int, const AnyVector*>> used() const;
   AnyVector centre() const;
 
@@ -269,7 +283,14 @@ class EpaCheck {
     std::size_t step;
     int vertex, face;
   };
+  struct LostFace {
+    std::size_t step;
+    int number;
+    Face face;
+  };
   Repetition directions_;          ///< since the polytope last grew
+  std::optional<LostFace> lost_;   ///< the face chosen, where the polytope has lost it since
+  std::optional<Finding> outside_; ///< the first polytope that the origin is outside of, while none has held it since
   std::optional<NoGain> no_gain_;  ///< the last time the polytope grew by a vertex no farther out than the face chosen
 };
 

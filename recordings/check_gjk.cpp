@@ -170,6 +170,17 @@ bool GjkCheck::heuristic_region(const std::vector<int>& before, const std::vecto
   return false;
 }
 
+/// With momentum, what was asked for before the newest support and is not kept: where it brought the simplex nothing nearer, it ended the momentum and was never
+/// joined to it. (A solver does not tell; with the newest one it may well come nearer.)
+bool GjkCheck::given_up(int vertex, const std::vector<int>& region) {
+  if (!c_.inferred || simplex_.empty() || !contains(pending_, vertex) || vertex == pending_.front() || contains(region, vertex)) return false;
+  std::vector<AnyVector> w = points(simplex_);
+  if (w.empty() || w.size() > 5) return false;
+  const double before = nearest_point(w).v.norm();
+  w.push_back(*c_.vertex(vertex));
+  return nearest_point(w).v.norm() >= before - c_.tolerance;
+}
+
 void GjkCheck::check_region(const recorded::SimplexReduced& e) {
   // What there was to keep: the last simplex, what was asked for since, and what the event itself says. While momentum lasts, a support that
   // brings nothing along v ends it and is not kept.
@@ -177,7 +188,7 @@ void GjkCheck::check_region(const recorded::SimplexReduced& e) {
   std::vector<int> before = momentum ? std::vector<int>() : pending_;
   for (const std::vector<int>* list : {&std::as_const(simplex_), &e.before})
     for (const int n : *list)
-      if (!contains(before, n)) before.push_back(n);
+      if (!contains(before, n) && !(momentum && given_up(n, e.region))) before.push_back(n);
   const std::vector<AnyVector> all = points(before), kept = points(e.region);
   if (kept.empty() || all.empty() || all.size() > 6) return;
   const NearestPoint best = nearest_point(all);

@@ -49,5 +49,7 @@ CAUSES = [
     ("a long normal without a polytope", "kit", "box-box-deep", [('say(type="polytope", ', "dict("), ("normal=normal, distance=distance)", "normal=scaled(3, normal), distance=3 * distance)")], "wrong-face", ["with a normal of length 3: divide the normal by its length first", "not 000000"], []),
     ("the depth as a length", "kit", "box-box-deep", [("signed_distance=-depth", "signed_distance=depth")], "wrong-depth", ["signed_distance is given as 0.399317, above zero", "the right length with its sign turned", "not What is returned"], []),
     ("a simplex of vertices that are none, after the polytope", "kit", "box-box-deep", [('say(type="result", **solve(scene["dimension"], scene["query"], scene["tolerance"]))', 'answer = solve(scene["dimension"], scene["query"], scene["tolerance"])\n    say(type="simplex", vertices=[55])\n    say(type="result", **answer)')], "unknown-vertex", ["The simplex names vertex 55"], []),
+    ("EPA goes on at the boundary, and ends", "kit", "2d-deep", [("if height - distance <= max(tolerance * height, rounding) or known or len(faces) > 600:", "if len(faces) > 9:"), ("> f[2] + rounding]", "> f[2] + rounding] or [next(f for f in faces if f[0] is face)]")],
+     "no-progress", ["It ended all the same, and with the right answer: here it merely costs", "not never end"], []),
     ("EPA's limit, and what follows", "kit", "spheres-concentric", [("or len(faces) > 600", "or len(faces) > 40"), (DEEP, "witness_a=combine([1, depth / 2.2], [middle, normal])")], "stopped-early", ["the face is not on the boundary"], []),
 ]
