@@ -71,6 +71,10 @@ class CheckContext {
 
   /// Adds a finding at this step.
   void find(const char* code, const std::string& message, Finding::Severity severity = Finding::Severity::error);
+  /// Of a search that was to stop: where it ends by itself, with the right answer, a warning.
+  void find_cost(const char* code, const std::string& message);
+  /// A warning that is given up where something else is told by this code.
+  void mention(const char* code, const std::string& message) { mentioned_.push_back({step, Finding::Severity::warning, code, message}); }
   /// What is harmless by itself, but the likely cause where an answer is wrong later on. The first counts; where the claim of an overlap is wrong, only one of
   /// the simplex that it is made of.
   void suspect(const char* code, const std::string& message);
@@ -103,6 +107,7 @@ class CheckContext {
   std::optional<std::size_t> last_simplex() const;
   void put_causes_first();
   void soften_what_only_costs();
+  std::vector<Finding> told();
   std::optional<Finding> cause_of(const Finding& root) const;
   void tell_what_to_report(Finding& root) const;
 
@@ -112,7 +117,8 @@ class CheckContext {
   bool told_cores_ = true;  ///< what `cores` is outside MPR
   std::optional<Result> reference_;
   std::vector<Finding> findings_;
-  std::set<std::string> seen_, explained_;
+  std::vector<Finding> mentioned_;
+  std::set<std::string> seen_, explained_, costs_;
   std::optional<Finding> suspicion_, last_suspicion_, doubt_, short_, reset_;
   int resets_ = 0;
 };
@@ -218,7 +224,7 @@ class GjkCheck {
   std::string stopping_test(double v, const std::string& nearer) const;
   std::string not_enclosed(const std::vector<int>& simplex, double v);
   bool first_negated(const AnyVector& direction) const;
-  std::string advice_for_cycle(std::size_t period) const;
+  bool lost_its_way(std::size_t period) const;
   bool heuristic_region(const std::vector<int>& before, const std::vector<int>& region, const AnyVector& v);
 
   CheckContext& c_;

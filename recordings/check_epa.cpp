@@ -276,7 +276,7 @@ void EpaCheck::check_convex(const std::vector<recorded::Face>& added, std::optio
 void EpaCheck::tell_no_gain() {
   if (!no_gain_) return;
   const std::size_t now = std::exchange(c_.step, no_gain_->step);
-  c_.find("no-progress", "Vertex " + std::to_string(no_gain_->vertex) + " lies no farther out than " + name(no_gain_->face) + ", across which it was asked for: the face is part of the boundary, and the search was over. It grows the polytope all the same. "
+  c_.find_cost("no-progress", "Vertex " + std::to_string(no_gain_->vertex) + " lies no farther out than " + name(no_gain_->face) + ", across which it was asked for: the face is part of the boundary, and the search was over. It grows the polytope all the same. "
                            "Stop when normal . w is no more than the face's distance and a tolerance.");
   c_.step = now;
   no_gain_.reset();
@@ -287,7 +287,7 @@ void EpaCheck::operator()(const recorded::SupportQueried& e) {
   const AnyVector n = std::exchange(chosen_normal_, AnyVector());
   tell_no_gain();
   if (const auto found = e.phase == Phase::epa ? directions_.add(e.direction, c_.step) : std::nullopt)
-    c_.find("cycle", "The direction " + text_of(e.direction) + (found->period == 1 ? " is" : ", and the " + std::to_string(found->period - 1) + " before it, are") + " asked along for the fourth time running, as from step " +
+    c_.find_cost("cycle", "The direction " + text_of(e.direction) + (found->period == 1 ? " is" : ", and the " + std::to_string(found->period - 1) + " before it, are") + " asked along for the fourth time running, as from step " +
                          std::to_string(found->first_step) + " on, and the polytope has not grown: the same supports come back, and EPA will never end. Stop when normal . w is no more than the face's distance and a tolerance, else remove the faces that w sees.");
   if (e.phase != Phase::epa || n.size() == 0 || n.isZero(0) || !n.allFinite()) return;
   const AnyVector d = e.direction.stableNormalized(), across = n.stableNormalized();

@@ -9,7 +9,7 @@
 namespace gjkdbg {
 
 /// A start that is inside A - B, but does not hold the origin, may be grown until it does, where the face with the least signed distance is taken first: that is the one
-/// the origin is outside of. So what counts is whether a later polytope holds it; and one that does explains a wrong answer only where nothing better does.
+/// the origin is outside of. So what counts is whether a later polytope holds it. Then the start explains a wrong answer only where nothing better does; of a right one it is a detour.
 void EpaCheck::check_origin() {
   const auto outside = std::find_if(faces_.begin(), faces_.end(), [&](const auto& face) { return face.second.usable && face.second.distance < -std::max(1e-7 * c_.size, c_.tolerance); });
   if (outside != faces_.end() && !outside_)
@@ -18,6 +18,7 @@ void EpaCheck::check_origin() {
   if (outside != faces_.end() || !outside_) return;
   const std::size_t now = std::exchange(c_.step, outside_->step);
   c_.suspect("origin-outside-polytope", outside_->message);
+  c_.mention("origin-outside-polytope", outside_->message + " This one grew until it held it, at step " + std::to_string(now) + ": where all else is right it merely costs.");
   c_.step = now;
   outside_.reset();
 }

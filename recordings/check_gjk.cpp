@@ -106,28 +106,32 @@ void GjkCheck::check_progress(const recorded::SupportQueried& e) {
   last_direction_ = e.direction;
   if (!repeated_at_ || !pending_.empty() || !same_direction || c_.recording.settings.stopping == Stopping::jolt) return;
   if (stuck_++ == 0)
-    c_.find("no-progress", "The support before left the simplex " + list_of(simplex_) + " of step " + std::to_string(*repeated_from_) + " as it was: nothing nearer the origin exists. The search goes on all the same, in the same direction. "
+    c_.find_cost("no-progress", "The support before left the simplex " + list_of(simplex_) + " of step " + std::to_string(*repeated_from_) + " as it was: nothing nearer the origin exists. The search goes on all the same, in the same direction. "
                            "Stop when |v|^2 - v . w is small beside |v|^2.");
   else
-    c_.find("cycle", "The simplex " + list_of(simplex_) + " of step " + std::to_string(*repeated_at_) + " is that of step " + std::to_string(*repeated_from_) +
+    c_.find_cost("cycle", "The simplex " + list_of(simplex_) + " of step " + std::to_string(*repeated_at_) + " is that of step " + std::to_string(*repeated_from_) +
                          " again, and the search goes on as it did then: it will never end. Stop when a support is no farther along d than the simplex.");
 }
 
 void GjkCheck::check_repetition(const AnyVector& direction) {
-  if (const auto found = directions_.add(direction, c_.step))
-    c_.find("cycle", "The direction " + text_of(direction) + (found->period == 1 ? " is" : ", and the " + std::to_string(found->period - 1) + " before it, are") + " searched for the fourth time running, as from step " +
-                         std::to_string(found->first_step) + " on: the same supports come back, and the search will never end. " + advice_for_cycle(found->period));
+  const auto found = directions_.add(direction, c_.step);
+  if (!found) return;
+  const std::string said = "The direction " + text_of(direction) + (found->period == 1 ? " is" : ", and the " + std::to_string(found->period - 1) + " before it, are") + " searched for the fourth time running, as from step " +
+                           std::to_string(found->first_step) + " on: the same supports come back, and the search will never end. ";
+  if (lost_its_way(found->period))
+    c_.find("cycle", said + "Each of them lies farther along its direction than the one before, so no stopping test would have been right to end it: |v| must fall in every step. The usual cause is a region test that drops a vertex the nearest part needs, or a simplex that is cleared.");
+  else
+    c_.find_cost("cycle", said + "Stop when a support is no farther along d than the simplex.");
 }
 
 /// Supports that each lie beyond the one before were no reason to stop.
-std::string GjkCheck::advice_for_cycle(std::size_t period) const {
+bool GjkCheck::lost_its_way(std::size_t period) const {
   std::vector<const recorded::SupportQueried*> last;  // newest first
   for (std::size_t i = c_.step + 1; i-- > 0 && last.size() <= period;)
     if (const auto* q = std::get_if<recorded::SupportQueried>(&c_.recording.events[i])) last.push_back(q);
   bool beyond = period > 1 && last.size() == period + 1;
   for (std::size_t i = 0; beyond && i < period; ++i) beyond = last[i]->direction.stableNormalized().dot(last[i]->w - last[i + 1]->w) > c_.tolerance;
-  return beyond ? "Each of them lies farther along its direction than the one before, so no stopping test would have been right to end it: |v| must fall in every step. The usual cause is a region test that drops a vertex the nearest part needs, or a simplex that is cleared."
-                : "Stop when a support is no farther along d than the simplex.";
+  return beyond;
 }
 
 void GjkCheck::operator()(const recorded::SupportQueried& e) {

@@ -75,6 +75,10 @@ struct Nearly {
     return far;
   }
 
+  /// Who goes by the length of v, and asks along -v: v is no more exact than the vertices that it is made of, to some eps times their size, which beside a short v turns it by a
+  /// large angle (64, as in check_towards_origin: for the weights, which are rounded, too). So far may the height along it be off.
+  double turned_by_rounding(double v) const { return 64 * (single ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon()) * c.size / v * c.size; }
+
   void apart(double rounding, bool overlap) const {
     const double measured = r.signed_distance.value_or(0);
     if (measured > 0 && measured <= *right.upper_bound + rounding) return;  // as far apart as they are, to rounding
@@ -89,6 +93,7 @@ struct Nearly {
     const double deep = -*right.upper_bound;
     const bool asked = std::isfinite(least);
     if (!asked && deep <= rounding) return;  // what else it knows is right to rounding
+    if (measured > 0 && least <= turned_by_rounding(measured)) return;
     const std::string are = overlap ? "overlap, " + text_of(deep) + " deep: little beside their size, but more than rounding" : "touch, which counts as overlapping";
     if (!asked) return warn("wrong-answer", "The bodies are called apart, but they " + are + ".");
     warn("unjustified-separation", "The bodies are called apart, but they " + are + ". No support proves a gap: that takes d . w < 0, and the least that was found, for d of length 1, is " + text_of(least) + ". The usual cause is " +
@@ -102,6 +107,7 @@ struct Nearly {
 
 void check_touching(CheckContext& c, double best_plane) {
   const Result& r = c.recording.result;
+  if (!foreign(c.recording) && r.signed_distance) return;  // of ours the distance tells
   if (!c.has_supports || unanswered(r) || c.found("wrong-answer") || c.found("unjustified-separation") || c.found("origin-not-enclosed")) return;
   Nearly{c, best_plane}.run();
 }

@@ -154,7 +154,7 @@ RUNS = [
         '{"type":"face","vertices":[7,4],"normal":[0,1],"distance":1}',
         '{"type":"support","direction":[0,1]}',
         '{"type":"result","intersecting":true,"signed_distance":-1,"normal":[0,1],"witness_a":[3,3],"witness_b":[3,2]}',
-    ], [], []),
+    ], [("origin-outside-polytope", "warning")], ["grew until it held it"]),
     ("EPA that starts beside the origin", "obb-edge-edge", [], [
         '{"type":"support","direction":[1,0,0]}',
         '{"type":"simplex","vertices":[0],"closest":[1.7071067811865475,-1.2,-0.29289321881345254]}',
@@ -185,7 +185,7 @@ RUNS = [
         '{"type":"face","vertices":[7,11,12],"normal":[0,1,0],"distance":0.21421356237309497}',
         '{"type":"support","direction":[0,1,0]}',
         '{"type":"result","intersecting":true,"signed_distance":-0.21421356237309497,"normal":[0,1,0],"witness_a":[0,0.7071067811865475,5.551115123125783e-17],"witness_b":[5.551115123125783e-17,0.4928932188134525,0]}',
-    ], [], []),
+    ], [("origin-outside-polytope", "warning")], ["grew until it held it"]),
     ("faces of which the vertices alone are told", "opengjk-52", [], [
         '{"type":"support","direction":[1,0,0]}',
         '{"type":"simplex","vertices":[0]}',
