@@ -77,7 +77,21 @@ struct Nearly {
 
   /// Who goes by the length of v, and asks along -v: v is no more exact than the vertices that it is made of, to some eps times their size, which beside a short v turns it by a
   /// large angle (64, as in check_towards_origin: for the weights, which are rounded, too). So far may the height along it be off.
-  double turned_by_rounding(double v) const { return 64 * (single ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon()) * c.size / v * c.size; }
+  double turned_by_rounding(double v) const { return known_to() / v * c.size; }
+  double known_to() const { return 64 * (single ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon()) * c.size; }
+
+  /// How far the last simplex that was told is from the origin; 0 where none was, where it holds the origin to rounding, and where it is farther than what may be taken for touching.
+  double last_v() const {
+    std::vector<AnyVector> w;
+    for (const Event& event : c.recording.events)
+      if (const auto* e = std::get_if<recorded::SimplexReduced>(&event)) {
+        w.clear();
+        for (const int number : e->region)
+          if (const auto found = c.vertices.find(number); found != c.vertices.end()) w.push_back(found->second);
+      }
+    const double v = w.empty() ? 0 : nearest_point(w).v.norm();
+    return v > known_to() && v <= (single ? 1e-4 : 1e-7) * c.size ? v : 0;
+  }
 
   void apart(double rounding, bool overlap) const {
     const double measured = r.signed_distance.value_or(0);
@@ -93,7 +107,7 @@ struct Nearly {
     const double deep = -*right.upper_bound;
     const bool asked = std::isfinite(least);
     if (!asked && deep <= rounding) return;  // what else it knows is right to rounding
-    if (measured > 0 && least <= turned_by_rounding(measured)) return;
+    if (const double v = measured > 0 ? measured : last_v(); v > 0 && least <= turned_by_rounding(v)) return;
     const std::string are = overlap ? "overlap, " + text_of(deep) + " deep: little beside their size, but more than rounding" : "touch, which counts as overlapping";
     if (!asked) return warn("wrong-answer", "The bodies are called apart, but they " + are + ".");
     warn("unjustified-separation", "The bodies are called apart, but they " + are + ". No support proves a gap: that takes d . w < 0, and the least that was found, for d of length 1, is " + text_of(least) + ". The usual cause is " +

@@ -151,7 +151,7 @@ void TraceCheck::along(const AnyVector& normal, double distance) {
   const double limit = c_.answer_tolerance();
   if (std::abs(-c_.body_height(normal) - distance) <= limit) return;
   const double right = -c_.body_height(normal);
-  const auto length = [](double x) { return x > 0 ? text_of(x) + " apart" : text_of(-x) + " deep in each other"; };
+  const auto length = [](double x) { return x == 0 ? "touching" : x > 0 ? text_of(x) + " apart" : text_of(-x) + " deep in each other"; };
   const std::string said = "Along the normal " + text_of(normal) + " the bodies are said to be " + length(distance) + ", but they are " + length(right);
   if (std::abs(-c_.body_height(-normal) - distance) <= limit) c_.find("flipped-normal", said + "; the other way round it would be right. Normals point from body 0 towards body 1.");
   else c_.find(distance > 0 ? "wrong-distance" : "wrong-depth", said + "." + c_.forgotten_radii(distance));

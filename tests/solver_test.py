@@ -273,6 +273,15 @@ class Solver(unittest.TestCase):
                 with self.subTest((place, answer, single)):
                     self.assertEqual([(f["code"], f["severity"]) for f in findings], [(code, "warning")] if code else [])
 
+    def test_who_goes_by_a_short_v_is_not_told_what_rounding_turned_it_by(self):
+        """A slab of 1e-9 across an edge: where v is as short, rounding turns it by a millionth. Asked for yes or no, no distance tells of it, the simplex does."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "slab.scene.json")
+            scene = json.loads((ROOT / "recordings/gallery/flat-slab.scene.json").read_text())
+            for query in ("intersect", "distance", "penetration"):
+                path.write_text(json.dumps({**{key: value for key, value in scene.items() if key != "expect"}, "query": query}))
+                self.assertEqual(self.run_kit(path, f"/usr/bin/python3 {KIT}"), [], query)
+
     def test_the_first_direction_negated_does_no_harm(self):
         """As dyn4j searches. Where the first two points are the same, or the first is nearer than the edge, Muratori's form needs the other direction."""
         with tempfile.TemporaryDirectory() as folder:
