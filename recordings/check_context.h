@@ -231,7 +231,7 @@ class GjkCheck {
   const bool portals_;  ///< whether a solver said to be MPR tells its portals as simplices
   std::vector<int> simplex_, pending_;  ///< kept, and queried since
   bool reported_ = false;               ///< whether any simplex was
-  AnyVector first_direction_, last_direction_;
+  AnyVector first_direction_, last_direction_, told_v_;
   int queries_ = 0;
   int stuck_ = 0;  ///< how often the search went on although nothing had changed
   double best_plane_ = -1e300;

@@ -174,15 +174,14 @@ bool GjkCheck::heuristic_region(const std::vector<int>& before, const std::vecto
   return false;
 }
 
-/// With momentum, what was asked for before the newest support and is not kept: where it brought the simplex nothing nearer, it ended the momentum and was never
-/// joined to it. (A solver does not tell; with the newest one it may well come nearer.)
+/// With momentum, what was asked for before the newest support and is not kept: where it brought nothing along v (v . w no less than |v|^2, so that the simplex with it is no
+/// nearer), it ended the momentum and was never joined to the simplex. (A solver does not tell; with the newest support it may well come nearer.)
 bool GjkCheck::given_up(int vertex, const std::vector<int>& region) {
   if (!c_.inferred || simplex_.empty() || !contains(pending_, vertex) || vertex == pending_.front() || contains(region, vertex)) return false;
-  std::vector<AnyVector> w = points(simplex_);
-  if (w.empty() || w.size() > 5) return false;
-  const double before = nearest_point(w).v.norm();
-  w.push_back(*c_.vertex(vertex));
-  return nearest_point(w).v.norm() >= before - c_.tolerance;
+  const std::vector<AnyVector> w = points(simplex_);
+  if (w.empty()) return false;
+  const AnyVector v = told_v_.size() > 0 && told_v_.allFinite() ? told_v_ : nearest_point(w).v;  // its own, which is what it goes by
+  return v.dot(*c_.vertex(vertex)) >= v.squaredNorm() - c_.tolerance * v.norm();
 }
 
 void GjkCheck::check_region(const recorded::SimplexReduced& e) {
@@ -326,7 +325,7 @@ void GjkCheck::operator()(const recorded::SimplexReduced& e) {
     check_region(e), check_closest(e);
   if (!portals_) check_cycle(e.region);
   reported_ = true;
-  simplex_ = e.region;
+  simplex_ = e.region, told_v_ = e.closest;
   pending_.clear();
 }
 
