@@ -224,7 +224,13 @@ struct Walk {
   double best_plane = -1e300;
 
   explicit Walk(CheckContext& context) : c(context) { begin(); }
-  void begin() { run_gjk.emplace(c), run_epa.emplace(c); }
+  void begin() {
+    finish();
+    run_gjk.emplace(c), run_epa.emplace(c);
+  }
+  void finish() {
+    if (run_epa) run_epa->finish();
+  }
 
   void operator()(const recorded::GjkBegan& e) {
     begin();
@@ -297,6 +303,7 @@ std::vector<Finding> check_steps(const Recording& run, std::size_t first) {
     record(event);
     check_extent(context, event);
   }
+  walk.finish();
   return context.take();
 }
 
@@ -318,6 +325,7 @@ std::vector<Finding> judged(CheckContext context) {
     check_extent(context, recording.events[i]);
     if (std::holds_alternative<recorded::MprEnded>(recording.events[i])) context.of_cores();
   }
+  walk.finish();
   trace.finish();
   const Query query = recording.scene.scene.query;
   if (query == Query::cast || query == Query::simulate) {

@@ -17,6 +17,11 @@ void CheckContext::find(const char* code, const std::string& message, Finding::S
   findings_.push_back({step, severity, code, message});
 }
 
+void CheckContext::find_cost(const char* code, const std::string& message) {
+  if (!found(code)) costs_.insert(code);
+  find(code, message);
+}
+
 bool CheckContext::found_here() const {
   return std::any_of(findings_.begin(), findings_.end(), [this](const Finding& f) { return f.step == step; });
 }
@@ -89,7 +94,31 @@ void CheckContext::tell_what_to_report(Finding& root) const {
   else if (of_the_depth) root.message += " Of the search for the depth nothing was reported: report EPA's polytope and the faces chosen, and the step that goes wrong can be named.";
 }
 
+/// What was to stop, and then ends by itself with the right answer, has cost time and no more.
+void CheckContext::soften_what_only_costs() {
+  const Result& r = recording.result;
+  if (!foreign(recording) || r.status.empty() || r.status == "iteration_limit" || unanswered(r)) return;
+  if (std::any_of(findings_.begin(), findings_.end(), [&](const Finding& f) { return f.severity == Finding::Severity::error && !costs_.contains(f.code); })) return;
+  for (Finding& f : findings_) {
+    if (!costs_.contains(f.code)) continue;
+    f.severity = Finding::Severity::warning;
+    for (const std::string_view endless : {"the search will never end", "EPA will never end", "it will never end"})
+      if (const std::size_t at = f.message.find(endless); at != std::string::npos) f.message.replace(at, endless.size(), "nothing is gained by it");
+    f.message += " It ended all the same, and with the right answer: here it merely costs.";
+  }
+}
+
 std::vector<Finding> CheckContext::take() {
+  soften_what_only_costs();
+  std::vector<Finding> out = told();
+  for (const Finding& f : mentioned_) {
+    const auto says_more = [&](const Finding& other) { return other.code == f.code || (other.severity == Finding::Severity::error && other.step < f.step); };
+    if (std::none_of(out.begin(), out.end(), says_more)) out.insert(std::find_if(out.begin(), out.end(), [&](const Finding& other) { return other.step > f.step; }), f);
+  }
+  return out;
+}
+
+std::vector<Finding> CheckContext::told() {
   const auto is_error = [](const Finding& f) { return f.severity == Finding::Severity::error; };
   const auto by_step = [](const Finding& x, const Finding& y) { return x.step < y.step; };
   std::stable_sort(findings_.begin(), findings_.end(), [&](const Finding& x, const Finding& y) { return x.step != y.step ? x.step < y.step : is_error(x) && !is_error(y); });

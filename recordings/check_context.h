@@ -60,6 +60,9 @@ class CheckContext {
   /// near that of the one farthest apart along the direction.
   double apart_along(const AnyVector& direction);
 
+  /// What a wrong distance leaves out, or takes off twice: the radii and margins of both bodies, or of one. A sentence, or empty.
+  std::string forgotten_radii(double given);
+
   /// How far a point is from being a support of a body along a unit direction, or of its core: short of it, or beside the body.
   double short_of_support(std::size_t body, const AnyVector& direction, const AnyVector& point) const;
 
@@ -70,8 +73,15 @@ class CheckContext {
   /// How far a claimed distance or depth may be from it.
   double answer_tolerance();
 
+  /// Whether another program's result has the right distance, and the wrong yes or no beside it: these contradict each other, and the search was right.
+  bool denies_its_distance();
+
   /// Adds a finding at this step.
   void find(const char* code, const std::string& message, Finding::Severity severity = Finding::Severity::error);
+  /// Of a search that was to stop: where it ends by itself, with the right answer, a warning.
+  void find_cost(const char* code, const std::string& message);
+  /// A warning that is given up where something else is told by this code.
+  void mention(const char* code, const std::string& message) { mentioned_.push_back({step, Finding::Severity::warning, code, message}); }
   /// What is harmless by itself, but the likely cause where an answer is wrong later on. The first counts; where the claim of an overlap is wrong, only one of
   /// the simplex that it is made of.
   void suspect(const char* code, const std::string& message);
@@ -105,6 +115,8 @@ class CheckContext {
  private:
   std::optional<std::size_t> last_simplex() const;
   void put_causes_first();
+  void soften_what_only_costs();
+  std::vector<Finding> told();
   std::optional<Finding> cause_of(const Finding& root) const;
   void tell_what_to_report(Finding& root) const;
 
@@ -114,7 +126,8 @@ class CheckContext {
   bool told_cores_ = true;  ///< what `cores` is outside MPR
   std::optional<Result> reference_;
   std::vector<Finding> findings_;
-  std::set<std::string> seen_, explained_;
+  std::vector<Finding> mentioned_;
+  std::set<std::string> seen_, explained_, costs_;
   std::optional<Finding> suspicion_, last_suspicion_, doubt_, short_, reset_;
   int resets_ = 0;
 };
@@ -125,6 +138,9 @@ double rounding_in_the_world(const Scene& scene);
 double outside(const Scene& scene, std::size_t body, const AnyVector& point);
 /// What witnesses that are wrong are instead, a sentence; empty where that is not known.
 std::string mistaken_witnesses(CheckContext& context, double slack);
+
+/// Yes or no where the bodies touch, or miss it by less than distances are judged by; `best_plane` as in GjkCheck, over the whole recording.
+void check_touching(CheckContext& context, double best_plane);
 
 /// What holds for every event: phases end once, numbers are given out once, supports are supports, bounds hold the answer.
 class TraceCheck {
@@ -142,6 +158,7 @@ class TraceCheck {
   void given(int number, bool is_new, const char* what);
   bool belong_together(const AnyVector& a, const AnyVector& b, const AnyVector& w);
   std::string support_hint(std::size_t body, const AnyVector& direction, const AnyVector& point) const;
+  std::string beside_body(std::size_t body, double out, bool turned) const;
   double far_out(const AnyVector& a, const AnyVector& b) const;
   void bounds(double lower, double upper);
   void along(const AnyVector& normal, double distance);
@@ -206,6 +223,7 @@ class GjkCheck {
   bool goes_on_to_epa() const;
   void check_towards_origin(const AnyVector& direction);
   void check_progress(const recorded::SupportQueried& e);
+  bool given_up(int vertex, const std::vector<int>& region);
   void check_region(const recorded::SimplexReduced& e);
   void check_no_more_kept(const std::vector<int>& region, const std::vector<AnyVector>& kept);
   void check_closest(const recorded::SimplexReduced& e);
@@ -217,14 +235,14 @@ class GjkCheck {
   std::string stopping_test(double v, const std::string& nearer) const;
   std::string not_enclosed(const std::vector<int>& simplex, double v);
   bool first_negated(const AnyVector& direction) const;
-  std::string advice_for_cycle(std::size_t period) const;
+  bool lost_its_way(std::size_t period) const;
   bool heuristic_region(const std::vector<int>& before, const std::vector<int>& region, const AnyVector& v);
 
   CheckContext& c_;
   const bool portals_;  ///< whether a solver said to be MPR tells its portals as simplices
   std::vector<int> simplex_, pending_;  ///< kept, and queried since
   bool reported_ = false;               ///< whether any simplex was
-  AnyVector first_direction_, last_direction_;
+  AnyVector first_direction_, last_direction_, told_v_;
   int queries_ = 0;
   int stuck_ = 0;  ///< how often the search went on although nothing had changed
   double best_plane_ = -1e300;
@@ -243,6 +261,7 @@ class EpaCheck {
   void operator()(const recorded::FaceChosen& e);
   void operator()(const recorded::PolytopeGrown& e);
   void operator()(const recorded::EpaEnded& e);
+  void finish();
 
  private:
   struct Face {
@@ -267,6 +286,7 @@ class EpaCheck {
   std::string winding_of(const std::map<int, Face>& faces) const;
   void check_convex(const std::vector<recorded::Face>& added, std::optional<int> newest);
   void check_origin();
+  void check_grown_last(const recorded::EpaEnded& e);
   std::vector<std::pair<int, const AnyVector*>> used() const;
   AnyVector centre() const;
 
@@ -280,7 +300,14 @@ class EpaCheck {
     std::size_t step;
     int vertex, face;
   };
+  struct LostFace {
+    std::size_t step;
+    int number;
+    Face face;
+  };
   Repetition directions_;          ///< since the polytope last grew
+  std::optional<LostFace> lost_;   ///< the face chosen, where the polytope has lost it since
+  std::optional<Finding> outside_; ///< the first polytope that the origin is outside of, while none has held it since
   std::optional<NoGain> no_gain_;  ///< the last time the polytope grew by a vertex no farther out than the face chosen
 };
 

@@ -159,7 +159,8 @@ void EpaCheck::check_horizon(const recorded::PolytopeGrown& e) {
 }
 
 void EpaCheck::operator()(const recorded::PolytopeSeeded& e) {
-  faces_.clear(), chosen_.reset(), no_gain_.reset(), directions_.forget();
+  finish();
+  faces_.clear(), chosen_.reset(), no_gain_.reset(), lost_.reset(), directions_.forget();
   for (const int v : e.vertices) c_.vertex(v);
   for (const auto& f : e.faces) add(f);
   orient(e.faces);
@@ -175,6 +176,7 @@ void EpaCheck::operator()(const recorded::PolytopeGrown& e) {
   check_horizon(e);
   check_gain(e.vertex);
   const std::map<int, Face> before = faces_;
+  if (const auto chosen = faces_.find(chosen_.value_or(-1)); chosen != faces_.end() && contains(e.removed, *chosen_)) lost_ = LostFace{c_.step, *chosen_, chosen->second};
   for (const int f : e.removed) faces_.erase(f);
   for (const auto& f : e.added) add(f);
   orient(e.added);
@@ -270,19 +272,11 @@ void EpaCheck::check_convex(const std::vector<recorded::Face>& added, std::optio
   }
 }
 
-void EpaCheck::check_origin() {
-  for (const auto& [number, face] : faces_)
-    if (face.usable && face.distance < -std::max(1e-7 * c_.size, c_.tolerance)) {
-      c_.find("origin-outside-polytope", "The origin lies " + text_of(-face.distance) + " outside " + name(number) + ". EPA needs a start that holds the origin: begin with a simplex GJK has proven to, and complete one with too few vertices by asking across it.");
-      return;
-    }
-}
-
 /// Who grows the polytope once more and then ends has lost nothing by it.
 void EpaCheck::tell_no_gain() {
   if (!no_gain_) return;
   const std::size_t now = std::exchange(c_.step, no_gain_->step);
-  c_.find("no-progress", "Vertex " + std::to_string(no_gain_->vertex) + " lies no farther out than " + name(no_gain_->face) + ", across which it was asked for: the face is part of the boundary, and the search was over. It grows the polytope all the same. "
+  c_.find_cost("no-progress", "Vertex " + std::to_string(no_gain_->vertex) + " lies no farther out than " + name(no_gain_->face) + ", across which it was asked for: the face is part of the boundary, and the search was over. It grows the polytope all the same. "
                            "Stop when normal . w is no more than the face's distance and a tolerance.");
   c_.step = now;
   no_gain_.reset();
@@ -293,7 +287,7 @@ void EpaCheck::operator()(const recorded::SupportQueried& e) {
   const AnyVector n = std::exchange(chosen_normal_, AnyVector());
   tell_no_gain();
   if (const auto found = e.phase == Phase::epa ? directions_.add(e.direction, c_.step) : std::nullopt)
-    c_.find("cycle", "The direction " + text_of(e.direction) + (found->period == 1 ? " is" : ", and the " + std::to_string(found->period - 1) + " before it, are") + " asked along for the fourth time running, as from step " +
+    c_.find_cost("cycle", "The direction " + text_of(e.direction) + (found->period == 1 ? " is" : ", and the " + std::to_string(found->period - 1) + " before it, are") + " asked along for the fourth time running, as from step " +
                          std::to_string(found->first_step) + " on, and the polytope has not grown: the same supports come back, and EPA will never end. Stop when normal . w is no more than the face's distance and a tolerance, else remove the faces that w sees.");
   if (e.phase != Phase::epa || n.size() == 0 || n.isZero(0) || !n.allFinite()) return;
   const AnyVector d = e.direction.stableNormalized(), across = n.stableNormalized();
@@ -307,7 +301,7 @@ void EpaCheck::operator()(const recorded::SupportQueried& e) {
 }
 
 void EpaCheck::operator()(const recorded::FaceChosen& e) {
-  chosen_ = e.face, chosen_normal_ = e.normal;
+  chosen_ = e.face, chosen_normal_ = e.normal, lost_.reset();
   const auto found = faces_.find(e.face);
   if (found == faces_.end() && (!faces_.empty() || !c_.inferred))
     c_.find("wrong-face", "The face chosen, " + name(e.face) + ", is none of the polytope: it was removed, or never there.");
@@ -321,32 +315,6 @@ void EpaCheck::operator()(const recorded::FaceChosen& e) {
     c_.find("not-closest-face", "The face chosen, " + name(e.face) + ", is " + text_of(face.distance) + " from the origin, but " + name(nearest) + " is nearer, at " + text_of(faces_.at(nearest).distance) +
                                     ". EPA's bound holds for the nearest face only. The usual cause is comparing distances of normals that were not normalised, or a stale queue entry.");
   if (outwards) check_plane(e.face, e.normal, e.distance);
-}
-
-void EpaCheck::operator()(const recorded::EpaEnded& e) {
-  if (e.status != EpaStatus::converged || !c_.has_supports) return;
-  const auto found = faces_.find(e.face >= 0 ? e.face : chosen_.value_or(-1));
-  if (found == faces_.end() || !found->second.usable) return;
-  const Face& face = found->second;
-  const double height = c_.height(face.normal);
-  // A solver may leave the depth out: then its normal tells, and where that is left out too, nothing is said that could be off.
-  const Result& r = c_.recording.result;
-  const double said = !c_.inferred || r.signed_distance ? -e.depth : r.normal ? c_.apart_along(*r.normal) : *c_.reference().signed_distance;
-  const bool right = std::abs(said - *c_.reference().signed_distance) <= c_.answer_tolerance();
-  // Bounds of smooth differences meet slowly, so that a depth may be off; not by more than the search itself left open.
-  const double slack = std::max(c_.tolerance, 1e-7 * c_.size), reference = -*c_.reference().signed_distance;
-  const bool within = e.depth >= face.distance - slack && e.depth <= height + slack, is_it = std::abs(e.depth - reference) <= 10 * slack + *c_.reference().upper_bound - *c_.reference().lower_bound;
-  if (c_.inferred && r.signed_distance && !within && !is_it && -e.depth >= face.distance - slack && -e.depth <= height + slack) {
-    c_.explained("wrong-depth");
-    c_.find("wrong-depth", "signed_distance is given as " + text_of(-e.depth) + ", above zero, but the bodies overlap, and " + name(found->first) + ", the face chosen last, lies as far from the origin. That is the right length with its sign turned: apart is "
-                           "above zero, a depth below.");
-  } else if (c_.inferred && r.signed_distance && !within && !is_it)
-    c_.find("wrong-depth", "The depth is given as " + text_of(e.depth) + ", but the face chosen last, " + name(found->first) + ", lies " + text_of(face.distance) + " from the origin, and A - B reaches " + text_of(height) +
-                               " along its normal: the depth is between these. What is returned is not what was found.");
-  if (height - face.distance <= c_.stop * std::max(height, c_.size)) return;
-  const std::string message = "EPA ended at " + name(found->first) + ", " + text_of(face.distance) + " from the origin, but A - B reaches " + text_of(height) + " along its normal: the face is not on the boundary. The usual cause is a tolerance that is too coarse, or a "
-                              "limit on iterations taken for convergence.";
-  right ? c_.short_of_boundary(message) : c_.find("stopped-early", message);
 }
 
 }  // namespace gjkdbg

@@ -106,28 +106,32 @@ void GjkCheck::check_progress(const recorded::SupportQueried& e) {
   last_direction_ = e.direction;
   if (!repeated_at_ || !pending_.empty() || !same_direction || c_.recording.settings.stopping == Stopping::jolt) return;
   if (stuck_++ == 0)
-    c_.find("no-progress", "The support before left the simplex " + list_of(simplex_) + " of step " + std::to_string(*repeated_from_) + " as it was: nothing nearer the origin exists. The search goes on all the same, in the same direction. "
+    c_.find_cost("no-progress", "The support before left the simplex " + list_of(simplex_) + " of step " + std::to_string(*repeated_from_) + " as it was: nothing nearer the origin exists. The search goes on all the same, in the same direction. "
                            "Stop when |v|^2 - v . w is small beside |v|^2.");
   else
-    c_.find("cycle", "The simplex " + list_of(simplex_) + " of step " + std::to_string(*repeated_at_) + " is that of step " + std::to_string(*repeated_from_) +
+    c_.find_cost("cycle", "The simplex " + list_of(simplex_) + " of step " + std::to_string(*repeated_at_) + " is that of step " + std::to_string(*repeated_from_) +
                          " again, and the search goes on as it did then: it will never end. Stop when a support is no farther along d than the simplex.");
 }
 
 void GjkCheck::check_repetition(const AnyVector& direction) {
-  if (const auto found = directions_.add(direction, c_.step))
-    c_.find("cycle", "The direction " + text_of(direction) + (found->period == 1 ? " is" : ", and the " + std::to_string(found->period - 1) + " before it, are") + " searched for the fourth time running, as from step " +
-                         std::to_string(found->first_step) + " on: the same supports come back, and the search will never end. " + advice_for_cycle(found->period));
+  const auto found = directions_.add(direction, c_.step);
+  if (!found) return;
+  const std::string said = "The direction " + text_of(direction) + (found->period == 1 ? " is" : ", and the " + std::to_string(found->period - 1) + " before it, are") + " searched for the fourth time running, as from step " +
+                           std::to_string(found->first_step) + " on: the same supports come back, and the search will never end. ";
+  if (lost_its_way(found->period))
+    c_.find("cycle", said + "Each of them lies farther along its direction than the one before, so no stopping test would have been right to end it: |v| must fall in every step. The usual cause is a region test that drops a vertex the nearest part needs, or a simplex that is cleared.");
+  else
+    c_.find_cost("cycle", said + "Stop when a support is no farther along d than the simplex.");
 }
 
 /// Supports that each lie beyond the one before were no reason to stop.
-std::string GjkCheck::advice_for_cycle(std::size_t period) const {
+bool GjkCheck::lost_its_way(std::size_t period) const {
   std::vector<const recorded::SupportQueried*> last;  // newest first
   for (std::size_t i = c_.step + 1; i-- > 0 && last.size() <= period;)
     if (const auto* q = std::get_if<recorded::SupportQueried>(&c_.recording.events[i])) last.push_back(q);
   bool beyond = period > 1 && last.size() == period + 1;
   for (std::size_t i = 0; beyond && i < period; ++i) beyond = last[i]->direction.stableNormalized().dot(last[i]->w - last[i + 1]->w) > c_.tolerance;
-  return beyond ? "Each of them lies farther along its direction than the one before, so no stopping test would have been right to end it: |v| must fall in every step. The usual cause is a region test that drops a vertex the nearest part needs, or a simplex that is cleared."
-                : "Stop when a support is no farther along d than the simplex.";
+  return beyond;
 }
 
 void GjkCheck::operator()(const recorded::SupportQueried& e) {
@@ -170,6 +174,16 @@ bool GjkCheck::heuristic_region(const std::vector<int>& before, const std::vecto
   return false;
 }
 
+/// With momentum, what was asked for before the newest support and is not kept: where it brought nothing along v (v . w no less than |v|^2, so that the simplex with it is no
+/// nearer), it ended the momentum and was never joined to the simplex. (A solver does not tell; with the newest support it may well come nearer.)
+bool GjkCheck::given_up(int vertex, const std::vector<int>& region) {
+  if (!c_.inferred || simplex_.empty() || !contains(pending_, vertex) || vertex == pending_.front() || contains(region, vertex)) return false;
+  const std::vector<AnyVector> w = points(simplex_);
+  if (w.empty()) return false;
+  const AnyVector v = told_v_.size() > 0 && told_v_.allFinite() ? told_v_ : nearest_point(w).v;  // its own, which is what it goes by
+  return v.dot(*c_.vertex(vertex)) >= v.squaredNorm() - c_.tolerance * v.norm();
+}
+
 void GjkCheck::check_region(const recorded::SimplexReduced& e) {
   // What there was to keep: the last simplex, what was asked for since, and what the event itself says. While momentum lasts, a support that
   // brings nothing along v ends it and is not kept.
@@ -177,7 +191,7 @@ void GjkCheck::check_region(const recorded::SimplexReduced& e) {
   std::vector<int> before = momentum ? std::vector<int>() : pending_;
   for (const std::vector<int>* list : {&std::as_const(simplex_), &e.before})
     for (const int n : *list)
-      if (!contains(before, n)) before.push_back(n);
+      if (!contains(before, n) && !(momentum && given_up(n, e.region))) before.push_back(n);
   const std::vector<AnyVector> all = points(before), kept = points(e.region);
   if (kept.empty() || all.empty() || all.size() > 6) return;
   const NearestPoint best = nearest_point(all);
@@ -311,7 +325,7 @@ void GjkCheck::operator()(const recorded::SimplexReduced& e) {
     check_region(e), check_closest(e);
   if (!portals_) check_cycle(e.region);
   reported_ = true;
-  simplex_ = e.region;
+  simplex_ = e.region, told_v_ = e.closest;
   pending_.clear();
 }
 

@@ -19,6 +19,13 @@ double outside(const Scene& scene, std::size_t body, const AnyVector& point) {
   return *solve(probe, resolve_settings({}, probe)).lower_bound;
 }
 
+bool CheckContext::denies_its_distance() {
+  const Result& r = recording.result;
+  if (!foreign(recording) || unanswered(r) || !r.signed_distance || r.intersecting != (*r.signed_distance > 0)) return false;
+  const double right = *reference().signed_distance, limit = answer_tolerance();
+  return std::abs(right) > limit && std::abs(*r.signed_distance - right) <= limit;
+}
+
 namespace {
 
 struct Judge {
@@ -33,13 +40,25 @@ struct Judge {
   void answer(double best_plane) const {
     const double sd = *right.signed_distance;
     if (std::abs(sd) <= limit || unanswered(r)) return;
+    if (c.denies_its_distance()) {
+      c.explained("wrong-answer");
+      return c.find("wrong-answer", std::string("The bodies are called ") + (r.intersecting ? "overlapping" : "apart") + ", but signed_distance is given as " + text_of(*r.signed_distance) + ", which is right: intersecting and signed_distance contradict each other. The distance "
+                                        "was found, and what is made of it is wrong: " + (r.intersecting ? "above zero the bodies are apart." : "below zero the bodies overlap."));
+    }
     const bool right_answer = r.intersecting == (sd <= 0), asked = best_plane > -1e300;
     // Who asks no support at all may know by other means; who does, goes by what the supports prove.
     if (!r.intersecting && asked && (!right_answer || (c.has_supports && !limited && best_plane - c.radius < -limit)))
       c.find("unjustified-separation", "The bodies are called apart, but no support proves it: the best plane leaves " + text_of(best_plane - c.radius) + " between them, and it takes a positive number. " +
-                                             (c.unkept.empty() ? "The usual cause is the wrong sign in the test whether the support passed the origin." : c.unkept));
+                                             why_apart(best_plane));
     if (right_answer) return;
     c.find("wrong-answer", std::string("The bodies are called ") + (r.intersecting ? "overlapping" : "apart") + ", but they are " + (sd <= 0 ? "overlapping, " + text_of(-sd) + " deep" : "apart by " + text_of(sd)) + ".");
+  }
+
+  std::string why_apart(double best_plane) const {
+    const std::string radii = r.signed_distance ? c.forgotten_radii(*r.signed_distance) : "";
+    if (!radii.empty()) return "signed_distance is given as " + text_of(*r.signed_distance) + "." + radii;
+    if (c.radius > 0 && best_plane > limit) return "It leaves " + text_of(best_plane) + " between the cores: the radii around them, " + text_of(c.radius) + " together, have to be taken off.";
+    return c.unkept.empty() ? "The usual cause is the wrong sign in the test whether the support passed the origin." : c.unkept;
   }
 
   /// A depth of MPR: no less than the right one, and as far as the bodies reach into each other along its normal.
@@ -68,8 +87,7 @@ struct Judge {
     const auto is = [&](double x) { return std::abs(given - x) <= limit + 1e-6 * std::abs(x); };
     if (is(-sd)) return " That is the right length with its sign turned: apart is above zero, a depth below.";
     if (given != 0 && (is(sd * sd) || is(-sd * sd))) return " That is its square: a root has not been taken.";
-    if (c.radius > 0 && is(sd + c.radius)) return " That is the cores' distance: the radii around them, " + text_of(c.radius) + " together, have not been taken off.";
-    return "";
+    return c.forgotten_radii(given);
   }
 
   /// The result's own bounds hold its distance, and the right one.
@@ -210,6 +228,7 @@ void check_result(CheckContext& c, double best_plane, bool yes_or_no) {
   const bool any_way = c.inferred && portal && recording.settings.name == MethodName::mpr && *right.signed_distance <= 0;
   const Judge judge{c, recording.result, right, limit, portal && !exact && !c.inferred, limited, any_way};  // a solver may answer a scene of MPR by other means
   judge.answer(best_plane);
+  if (!limited) check_touching(c, best_plane);
   if (yes_or_no) return;
   judge.distance();
   judge.bounds();

@@ -113,16 +113,6 @@ double TraceCheck::far_out(const AnyVector& a, const AnyVector& b) const {
 
 void TraceCheck::judge(const recorded::VertexKept& e) { belong_together(e.a, e.b, e.w); }
 
-/// What a point that is not the farthest along a direction is instead.
-std::string TraceCheck::support_hint(std::size_t body, const AnyVector& direction, const AnyVector& point) const {
-  const AnyVector position = c_.recording.scene.scene.bodies[body].pose.position;
-  const auto farthest = [&](const AnyVector& d, const AnyVector& p) { return c_.short_of_support(body, d, p) <= c_.tolerance + far_out(p, position); };
-  const AnyVector back = -direction, moved = point + position;
-  if (farthest(back, point)) return " It is the farthest the other way: of A - B, A is asked along d and B along -d.";
-  if (!position.isZero(0) && farthest(direction, moved)) return " With the body's position added it is: a support is a point of the world.";
-  return " The usual causes are a support that is asked for in the body's own frame, and a direction that was not turned into it: by the rotation's transpose on the way in, by the rotation on the way out.";
-}
-
 void TraceCheck::judge(const recorded::SupportQueried& e) {
   if (!belong_together(e.a, e.b, e.w) || !c_.has_supports || !e.direction.allFinite() || e.direction.isZero(0)) return;
   const AnyVector d = e.direction.stableNormalized();
@@ -157,9 +147,11 @@ void TraceCheck::along(const AnyVector& normal, double distance) {
   if (const std::string off = c_.not_unit(normal); !off.empty()) return c_.find("wrong-normal", off);
   const double limit = c_.answer_tolerance();
   if (std::abs(-c_.body_height(normal) - distance) <= limit) return;
-  const std::string said = "Along the normal " + text_of(normal) + " the bodies are said to be " + text_of(distance) + " apart (negative: overlapping), but they are " + text_of(-c_.body_height(normal));
+  const double right = -c_.body_height(normal);
+  const auto length = [](double x) { return x == 0 ? "touching" : x > 0 ? text_of(x) + " apart" : text_of(-x) + " deep in each other"; };
+  const std::string said = "Along the normal " + text_of(normal) + " the bodies are said to be " + length(distance) + ", but they are " + length(right);
   if (std::abs(-c_.body_height(-normal) - distance) <= limit) c_.find("flipped-normal", said + "; the other way round it would be right. Normals point from body 0 towards body 1.");
-  else c_.find(distance > 0 ? "wrong-distance" : "wrong-depth", said + ".");
+  else c_.find(distance > 0 ? "wrong-distance" : "wrong-depth", said + "." + c_.forgotten_radii(distance));
 }
 
 /// The nearest point is the upper bound, radii taken off. (A recording of MPR has points of two kinds.)
@@ -190,7 +182,7 @@ void TraceCheck::judge(const recorded::GjkEnded& e) {
   const double distance = *c_.reference().signed_distance, limit = c_.answer_tolerance();
   const bool apart = e.status == GjkStatus::separated, cores_apart = e.status == GjkStatus::converged;
   if ((apart && distance < -limit) || (cores_apart && distance < -limit - c_.radius))
-    c_.find("unjustified-separation", "GJK ended as \"" + std::string(word_of(e.status)) + "\", but the bodies overlap, " + text_of(-distance) + " deep.");
+    c_.find("unjustified-separation", "GJK ended as \"" + std::string(word_of(e.status)) + "\", but the bodies overlap, " + text_of(-distance) + " deep." + (c_.recording.result.signed_distance ? c_.forgotten_radii(*c_.recording.result.signed_distance) : ""));
 }
 
 void TraceCheck::judge(const recorded::PolytopeGrown& e) { bounds(-e.upper_bound, -e.lower_bound); }

@@ -46,10 +46,14 @@ struct Witnesses {
     return "";
   }
 
-  std::string of_one_vertex(std::size_t body) const {
+  std::string both_of_one_vertex() const {
     for (const Event& event : c.recording.events)
       if (const auto vertex = given_vertex(event); vertex && r.witness_a && r.witness_b && same(*r.witness_a, vertex->a) && same(*r.witness_b, vertex->b))
         return "They are the two points of vertex " + std::to_string(vertex->vertex) + " alone, where the weighted sums of the points of all the vertices of the nearest part are due.";
+    return "";
+  }
+
+  std::string of_one_vertex(std::size_t body) const {
     for (const Event& event : c.recording.events)
       if (const auto vertex = given_vertex(event); vertex && same(*told(body), body == 0 ? vertex->a : vertex->b))
         return name(body) + " is the point of " + letter(body) + " of vertex " + std::to_string(vertex->vertex) + " alone, where the weighted sum of the points of all the vertices of the nearest part is due.";
@@ -119,8 +123,10 @@ std::string mistaken_witnesses(CheckContext& context, double slack) {
   for (const std::size_t body : {std::size_t{0}, std::size_t{1}}) {
     if (!known.empty() || !witnesses.is_wrong(body)) continue;
     known = witnesses.of_the_difference(body);
+    if (known.empty()) known = witnesses.both_of_one_vertex();
     if (known.empty()) known = witnesses.of_one_vertex(body);
   }
+  if (known.empty()) known = witnesses.both_of_one_vertex();  // each may have a partner on the other body, which the other one is not
   return known;
 }
 

@@ -13,6 +13,7 @@ import unittest
 
 from solver_bugs import BUGS, EDITS, FACES, LATER, SUPPORT, at
 from solver_causes import CAUSES, NEGATED, SINGLE
+from solver_runs import RUNS
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 KIT = ROOT / "debugger/solver/kits/gjk.py"
@@ -257,6 +258,39 @@ class Solver(unittest.TestCase):
                             self.assertNotIn(phrase[4:], findings[0]["message"])
                         else:
                             self.assertIn(phrase, findings[0]["message"])
+
+    def test_what_programs_said_is_judged_rightly(self):
+        for name, scene, more, lines, expected, phrases in RUNS:
+            with self.subTest(name):
+                findings = self.run_kit(scene, "cat >/dev/null & printf '%s\\n' " + " ".join(f"'{line}'" for line in lines), *more)
+                found = [(f["code"], f["severity"]) for f in findings]
+                open_end = expected[-1:] == [...]
+                self.assertEqual(found[: len(expected) - 1] if open_end else found, expected[:-1] if open_end else expected)
+                for phrase in phrases:
+                    self.assertIn(phrase, findings[0]["message"])
+
+    def test_yes_or_no_is_judged_to_rounding(self):
+        """Two cubes that overlap by little, or touch, or are as little apart: a distance may be off by that, yes or no is told as a warning."""
+        asks, simplex = '{"type":"support","direction":[1,0,0]}', '{"type":"simplex","vertices":[0]}'
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder, "nearly.scene.json")
+            for place, answer, single, code in ((2, False, False, "unjustified-separation"), (2 - 1e-10, False, False, "unjustified-separation"), (2 - 1e-6, False, False, "unjustified-separation"), (2 - 1e-6, False, True, "unjustified-separation"),
+                                                (2 - 1e-8, False, True, None), (2 - 1e-8, True, False, None), (2, True, False, None), (2 + 1e-8, True, False, "wrong-answer"), (2 + 1e-8, True, True, None), (2 + 1e-8, False, False, None)):
+                box = {"type": "box", "half_extents": [1, 1, 1]}
+                scene.write_text(json.dumps({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "intersect", "bodies": [{"shape": box}, {"shape": box, "pose": {"position": [place, 0, 0]}}]}))
+                lines = (asks, *((simplex,) if answer and place > 2 else ()), '{"type":"result","intersecting":%s}' % json.dumps(answer))
+                findings = self.run_kit(scene, "cat >/dev/null & printf '%s\\n' " + " ".join(f"'{line}'" for line in lines), *(("--scalar", "float") if single else ()))
+                with self.subTest((place, answer, single)):
+                    self.assertEqual([(f["code"], f["severity"]) for f in findings], [(code, "warning")] if code else [])
+
+    def test_who_goes_by_a_short_v_is_not_told_what_rounding_turned_it_by(self):
+        """A slab of 1e-9 across an edge: where v is as short, rounding turns it by a millionth. Asked for yes or no, no distance tells of it, the simplex does."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "slab.scene.json")
+            scene = json.loads((ROOT / "recordings/gallery/flat-slab.scene.json").read_text())
+            for query in ("intersect", "distance", "penetration"):
+                path.write_text(json.dumps({**{key: value for key, value in scene.items() if key != "expect"}, "query": query}))
+                self.assertEqual(self.run_kit(path, f"/usr/bin/python3 {KIT}"), [], query)
 
     def test_the_first_direction_negated_does_no_harm(self):
         """As dyn4j searches. Where the first two points are the same, or the first is nearer than the edge, Muratori's form needs the other direction."""

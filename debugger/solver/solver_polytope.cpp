@@ -40,9 +40,11 @@ void SolverRecorder::orient(std::vector<recorded::Face>& faces) const {
 
 void SolverRecorder::polytope(const Json& json) {
   announced_ = AnyVector();
+  sideless_.reset();
   const Place root, at(root, "faces");
   if (!json.contains("faces") || !json["faces"].is_array()) reject(at, "bad-message", "must be a list of faces");
   if (json["faces"].empty()) reject(at, "bad-message", "is empty: every face was removed, and none was left to join the new vertex to; the usual cause is a test of which faces it sees with its sign turned");
+  tell_not_asked(false);
   end_gjk(GjkStatus::enclosed);
   std::set<std::set<int>> wanted;
   std::vector<recorded::Face> added;
@@ -115,6 +117,7 @@ void SolverRecorder::face(const Json& json) {
   const Place root, at(root, "vertices");
   if (!json.contains("vertices")) reject(at, "bad-message", "is missing");
   const std::vector<int> vertices = face_vertices(json["vertices"], at);
+  tell_not_asked(false);
   end_gjk(GjkStatus::enclosed);
   // Of a polytope's faces the recording holds the numbers, and `check` sees them; of this one it would not.
   for (const int v : vertices)
@@ -132,13 +135,28 @@ void SolverRecorder::face(const Json& json) {
     recording_.events.push_back(recorded::Warning{"wrong-face", "The face chosen, " + list_of(vertices) + ", is none of the polytope: it was " + (gone == gone_.end() ? "never there" : "removed at step " + std::to_string(gone->second)) +
                                                                   ". The usual cause is an entry of a list or a queue that outlives its face."});
   }
-  if (const auto n = json.find("normal"); n != json.end() && !n->is_null()) {
-    e.normal = read_vector(*n, Place(root, "normal"), dimension_);
-  }
-  if (const auto d = json.find("distance"); d != json.end() && !d->is_null()) e.distance = read_number(*d, Place(root, "distance"));
-  if (!known && check_area(face)) check_plane(face, e);
+  const auto given = [&](const char* key) -> const Json* {
+    const auto value = json.find(key);
+    return value != json.end() && !value->is_null() ? &*value : nullptr;
+  };
+  const Json *normal = given("normal"), *distance = given("distance");
+  if (normal) e.normal = read_vector(*normal, Place(root, "normal"), dimension_);
+  if (normal && !known && e.normal.stableNorm() > 0 && vertices_.contains(vertices[0])) e.distance = e.normal.stableNormalized().dot(vertices_.at(vertices[0]));  // along that one
+  if (distance) e.distance = read_number(*distance, Place(root, "distance"));
+  if (!known && check_area(face) && (normal || distance)) check_plane(face, e, normal != nullptr, distance != nullptr);
   chosen_ = face;
+  sideless_.reset();
+  if (!known && !normal && std::abs(face.distance) <= 1e-9 * largest()) sideless_ = recording_.events.size();
   recording_.events.push_back(std::move(e));
+}
+
+/// Of a face with the origin on it, of which nothing but the vertices is known, either side may be the outer one: it is the one that is asked along.
+void SolverRecorder::turn_chosen(const AnyVector& direction) {
+  if (!sideless_) return;
+  auto& e = std::get<recorded::FaceChosen>(recording_.events[*std::exchange(sideless_, std::nullopt)]);
+  if (!direction.allFinite() || direction.isZero(0) || !(e.normal.dot(direction.stableNormalized()) < 0)) return;
+  e.normal = -e.normal, e.distance = -e.distance;
+  if (chosen_) chosen_->normal = -chosen_->normal, chosen_->distance = -chosen_->distance;
 }
 
 /// Of a face of no polytope, too: where it names a vertex twice, or three in a line, it has no area and no normal.
@@ -151,19 +169,21 @@ bool SolverRecorder::check_area(const recorded::Face& face) {
   return false;
 }
 
-/// The plane that is given for a face of no polytope, which `check` knows nothing of, holds its vertices, and has the origin on its inner side: the normal leads out.
-void SolverRecorder::check_plane(const recorded::Face& face, const recorded::FaceChosen& given) {
+/// The plane that is given for a face of no polytope, which `check` knows nothing of, holds its vertices, and has the origin on its inner side: the normal leads out. Where
+/// one of normal and distance is not given, it is taken from the vertices.
+void SolverRecorder::check_plane(const recorded::Face& face, const recorded::FaceChosen& given, bool normal_given, bool distance_given) {
   const double length = given.normal.stableNorm();
-  const std::string said = "The face chosen, " + list_of(face.vertices) + ", is given the normal " + text_of(given.normal) + " and the distance " + text_of(given.distance);
+  const std::string said = "The face chosen, " + list_of(face.vertices) + ", is given the " + (normal_given ? "normal " + text_of(given.normal) : "") + (normal_given && distance_given ? " and the " : "") +
+                           (distance_given ? "distance " + text_of(given.distance) : "");
   if (!(length > 0)) return recording_.events.push_back(recorded::Warning{"wrong-face", said + ", but a normal has a length."});
   for (const int v : face.vertices) {
     const auto w = vertices_.find(v);
     if (w == vertices_.end()) continue;
-    const double at = (given.normal / length).dot(w->second), slack = 1e-6 * (w->second.norm() + std::abs(given.distance));
+    const double at = (given.normal / length).dot(w->second), slack = 1e-6 * (w->second.norm() + std::abs(given.distance)) + 1e-9 * largest();  // as `check` has it of a polytope's faces
     const bool holds = std::abs(at - given.distance) <= slack, other_side = std::abs(at + given.distance) <= slack;
     if (holds && given.distance >= -slack) continue;
     const bool by_its_length = std::abs(length - 1) > 1e-4 && std::abs(std::abs(at) * length - std::abs(given.distance)) <= slack * std::max(length, 1.0);
-    recording_.events.push_back(recorded::Warning{"wrong-face", said + ", but its vertex " + std::to_string(v) + " lies at " + text_of(at) + " along it." +
+    recording_.events.push_back(recorded::Warning{"wrong-face", said + ", but its vertex " + std::to_string(v) + " lies at " + text_of(at) + (normal_given ? " along it." : " along its normal.") +
                                                                   (holds || other_side ? " The normal of a face leads away from the origin, and the distance along it is above zero: turn the one whose sign is wrong." : by_its_length ? by_length(length) : "")});
     return;
   }

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "recordings/check_text.h"
+#include "recordings/check_context.h"
 #include "recordings/json_writing.h"
 
 namespace gjkdbg {
@@ -94,15 +94,33 @@ void SolverRecorder::note_unknown_fields(const std::string& type, const Json& js
   }
 }
 
-/// The direction that the last simplex gave for the next support; where it is next to nothing, the search was at its end.
+/// The direction that the last simplex gave for the next support. Where the simplex holds the origin, to the tolerance of `check`, none is due: what is given is rounding. Nor is
+/// any due where the search has ended and EPA begins, which the next message tells.
 void SolverRecorder::check_announced(const AnyVector& direction) {
   const AnyVector said = std::exchange(announced_, AnyVector());
+  if (said.size() == 0 || !said.allFinite() || !direction.allFinite() || direction.isZero(0)) return;
+  if (said.norm() <= 1e-9 * std::min(1.0, largest()) || said.stableNormalized().dot(direction.stableNormalized()) >= 0.999) return;
+  std::vector<AnyVector> w;
+  for (const int v : simplex_)
+    if (const auto found = vertices_.find(v); found != vertices_.end()) w.push_back(found->second);
+  const double tolerance = recording_.settings.scalar == Scalar::float_precision ? 1e-4 : 1e-9;
+  if (!w.empty() && nearest_point(w).v.norm() <= tolerance * largest()) return;
+  not_asked_ = {recording_.events.size(), {"direction-not-asked", "The simplex before gave " + text_of(said) + " for the next direction, but the support is asked for along " + text_of(direction) +
+                                                                      ". The usual cause is a vector that was written over, or turned into a body's axes, in between."}};
+  if (gjk_ended_) tell_not_asked(true);
+}
+
+/// Before the support that it is of. (No event's place is remembered before EPA begins.)
+void SolverRecorder::tell_not_asked(bool searches_on) {
+  if (not_asked_ && searches_on) recording_.events.insert(recording_.events.begin() + static_cast<std::ptrdiff_t>(not_asked_->first), std::move(not_asked_->second));
+  not_asked_.reset();
+}
+
+/// The longest w so far.
+double SolverRecorder::largest() const {
   double size = 0;
   for (const auto& [number, w] : vertices_) size = std::max(size, w.norm());
-  if (said.size() == 0 || !said.allFinite() || !direction.allFinite() || direction.isZero(0) || said.norm() <= 1e-9 * std::min(1.0, size)) return;
-  if (said.stableNormalized().dot(direction.stableNormalized()) >= 0.999) return;
-  recording_.events.push_back(recorded::Warning{"direction-not-asked", "The simplex before gave " + text_of(said) + " for the next direction, but the support is asked for along " + text_of(direction) +
-                                                                          ". The usual cause is a vector that was written over, or turned into a body's axes, in between."});
+  return size;
 }
 
 void SolverRecorder::begin(const AnyVector& direction) {
@@ -122,6 +140,7 @@ std::string SolverRecorder::support(const Json& json) {
   }
   begin(d);
   check_announced(d);
+  turn_chosen(d);
   const AnyVector a = a_(d, true), b = b_(-d, true), w = a - b;
   const int vertex = supports_++;
   vertices_[vertex] = w;
@@ -158,6 +177,7 @@ void SolverRecorder::simplex(const Json& json) {
   recorded::SimplexReduced e;
   e.region = vertex_list(json["vertices"], at);
   begin(AnyVector::Zero(dimension_));
+  tell_not_asked(true);
   e.iteration = std::max(0, iteration_ - 1);
   e.before = pending_;
   for (const int v : simplex_)
@@ -211,6 +231,7 @@ void SolverRecorder::result(const Json& json) {
   r.normal = point("normal"), r.witness_a = point("witness_a"), r.witness_b = point("witness_b");
   if (recording_.scene.scene.query == Query::intersect) r.signed_distance.reset(), r.normal.reset(), r.witness_a.reset(), r.witness_b.reset();  // not asked for: neither kept nor judged
   const bool measured = r.signed_distance.has_value();
+  tell_not_asked(!(r.intersecting && recording_.scene.scene.query > Query::distance));  // of an overlap the depth may have been looked for without a word
   end_gjk(r.intersecting ? GjkStatus::enclosed : measured ? GjkStatus::converged : GjkStatus::separated);
   r.status = "converged";
   if (epa_ || chosen_) {
@@ -230,6 +251,7 @@ double SolverRecorder::nearest_face() const {
 }
 
 void SolverRecorder::abort(const std::string& code, const std::string& message) {
+  tell_not_asked(true);
   if (began_ && !gjk_ended_) end_gjk(GjkStatus::aborted);
   else if (epa_ || chosen_) recording_.events.push_back(recorded::EpaEnded{epa_iteration_, EpaStatus::aborted, -1, AnyVector::Zero(dimension_), 0});
   recording_.events.push_back(recorded::Warning{code, message});

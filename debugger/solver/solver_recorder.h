@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "recordings/json_reading.h"
 #include "recordings/recording.h"
@@ -38,7 +39,10 @@ class SolverRecorder {
   void result(const Json& json);
   void note_unknown_fields(const std::string& type, const Json& json);
   void check_announced(const AnyVector& direction);
-  void check_plane(const recorded::Face& face, const recorded::FaceChosen& given);
+  void tell_not_asked(bool searches_on);
+  void turn_chosen(const AnyVector& direction);
+  double largest() const;
+  void check_plane(const recorded::Face& face, const recorded::FaceChosen& given, bool normal_given, bool distance_given);
   bool check_area(const recorded::Face& face);
   double nearest_face() const;
   void begin(const AnyVector& direction);
@@ -61,6 +65,8 @@ class SolverRecorder {
   std::map<int, AnyVector> vertices_;
   std::vector<int> simplex_, pending_;
   AnyVector announced_;                   ///< the direction that the last simplex gave for the next support; empty when none
+  std::optional<std::pair<std::size_t, recorded::Warning>> not_asked_;  ///< the support asked for along another one: before which event this belongs, until it is known that GJK goes on
+  std::optional<std::size_t> sideless_;   ///< the event of a face chosen that has no side: without a polytope or a normal, and the origin on it
   std::set<std::string> unknown_fields_;  ///< told of already
   std::map<std::set<int>, recorded::Face> faces_;
   std::map<std::set<int>, std::size_t> gone_;  ///< faces removed, and the step at which they were
