@@ -42,7 +42,7 @@ class Prepared final : public PreparedPair {
     NoTrace trace;
     if (settings.name == MethodName::closed_form)
       return ClosedForm<D, S, NoTrace>(segment_a_.value(), segment_b_.value(), pose_a_, pose_b_, scale_, WorkingFrame<D, S>(pose_a_, scale_), trace).run(query);
-    if (settings.start == Start::previous && warm_.size == 0) warm_ = warm_start<D, S>(settings.initial_simplex, a_, b_, scale_);
+    if (settings.start == Start::previous && warm_.size == 0) warm_ = warm_start<D, S>(settings.core_simplex, a_, b_, scale_);
     return PairSolver<D, S, NoTrace>(a_, b_, pose_a_, pose_b_, scale_, settings, trace, &features_a_, &features_b_, &warm_).run(query);
   }
 

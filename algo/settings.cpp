@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "algo/solve.h"
 #include "shapes/convex.h"
@@ -121,12 +124,32 @@ void check_motion(const Settings& s, const Scene& scene) {
   }
 }
 
-/// Whether a point, in the body's frame, is of the body to rounding: asked of our own GJK, in double. One farther out would make the bounds lie.
-bool holds(const Body& body, const AnyVector& point, int dimension) {
+/// A shape is the sum of its core and a ball; takes the ball away and returns its radius.
+double bare(Shape& shape) {
+  double radius = std::exchange(shape.margin, 0);
+  if (Sphere* sphere = std::get_if<Sphere>(&shape.geometry)) radius += std::exchange(sphere->radius, 0);
+  if (Capsule* capsule = std::get_if<Capsule>(&shape.geometry)) radius += std::exchange(capsule->radius, 0);
+  if (Sum* sum = std::get_if<Sum>(&shape.geometry))
+    for (auto* part : {&sum->first, &sum->second}) {
+      Shape core = **part;
+      radius += bare(core);
+      *part = std::make_shared<const Shape>(std::move(core));
+    }
+  return radius;
+}
+
+/// Of the body's core the point nearest to one of the body, in its frame; none where that is proven to lie outside, by more than rounding. Asked of our own GJK, in double.
+/// A point of the core to rounding stays as it is. Any other is moved, be it that curved sides keep GJK from telling: one that is no point of the core would make the bounds lie.
+std::optional<AnyVector> core_point(const Body& body, const AnyVector& point, int dimension) {
+  Shape core = body.shape;
+  const double radius = bare(core), rounding = 16 * std::numeric_limits<double>::epsilon() * (size_of(body.shape) + point.norm());
   Scene probe;
   probe.dimension = dimension, probe.query = Query::distance;
-  probe.bodies = {Body{"", body.shape, identity_pose(dimension)}, Body{"", {PointSet{PointSetKind::point, {point}, {}}, 0}, identity_pose(dimension)}};
-  return *solve(probe, resolve_settings({}, probe)).signed_distance <= 16 * std::numeric_limits<double>::epsilon() * (size_of(body.shape) + point.norm());
+  probe.bodies = {Body{"", core, identity_pose(dimension)}, Body{"", {PointSet{PointSetKind::point, {point}, {}}, 0}, identity_pose(dimension)}};
+  const Result nearest = solve(probe, resolve_settings({}, probe));
+  if (*nearest.signed_distance <= rounding) return point;
+  if (*nearest.lower_bound > radius + rounding) return std::nullopt;
+  return nearest.witness_a;
 }
 
 bool keeps_simplex(MethodName name) {
@@ -141,7 +164,8 @@ bool keeps_simplex(MethodName name) {
   }
 }
 
-void check_start(const Settings& s, const Scene& scene) {
+/// And finds what GJK begins with.
+void check_start(Settings& s, const Scene& scene) {
   if (s.start == Start::given && !s.initial_direction) throw Error("missing-field", "start \"given\" needs initial_direction", "/method/start");
   if (s.start != Start::given && s.initial_direction) throw Error("contradiction", "initial_direction goes with start \"given\"", "/method/start");
   if (s.start != Start::previous && !s.initial_simplex.empty()) throw Error("contradiction", "initial_simplex goes with start \"previous\"", "/method/start");
@@ -151,14 +175,18 @@ void check_start(const Settings& s, const Scene& scene) {
   if (scene.bodies.size() != 2) throw Error("wrong-count", "initial_simplex goes with two bodies; a motion's pairs have their own", "/method/initial_simplex");
   if (static_cast<int>(s.initial_simplex.size()) > scene.dimension + 1)
     throw Error("wrong-count", "initial_simplex has at most " + std::to_string(scene.dimension + 1) + " vertices", "/method/initial_simplex");
+  s.core_simplex = s.initial_simplex;
   for (std::size_t i = 0; i < s.initial_simplex.size(); ++i)
     for (const int k : {0, 1}) {
-      const AnyVector& p = k == 0 ? s.initial_simplex[i].a : s.initial_simplex[i].b;
+      AnyVector& p = k == 0 ? s.core_simplex[i].a : s.core_simplex[i].b;
       const Body& body = scene.bodies[static_cast<std::size_t>(k)];
       const std::string where = "/method/initial_simplex/" + std::to_string(i) + (k == 0 ? "/a" : "/b");
       if (p.size() != scene.dimension) throw Error("wrong-dimension", "needs " + std::to_string(scene.dimension) + " numbers", where);
       if (!p.allFinite()) throw Error("non-finite", "must be finite", where);
-      if (!std::holds_alternative<Mesh>(body.shape.geometry) && !holds(body, p, scene.dimension)) throw Error("out-of-range", "is no point of body " + (body.name.empty() ? std::to_string(k) : "\"" + body.name + "\""), where);
+      if (std::holds_alternative<Mesh>(body.shape.geometry)) continue;
+      const auto nearest = core_point(body, p, scene.dimension);
+      if (!nearest) throw Error("out-of-range", "is no point of body " + (body.name.empty() ? std::to_string(k) : "\"" + body.name + "\""), where);
+      p = *nearest;
     }
 }
 

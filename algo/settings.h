@@ -96,7 +96,8 @@ struct Settings {
   double tolerance = 1e-12;
   int max_iterations = 512;
   std::optional<AnyVector> initial_direction;  ///< of Start::given
-  std::vector<SimplexPoint> initial_simplex;   ///< of Start::previous; empty: there is none yet, begin at the centres
+  std::vector<SimplexPoint> initial_simplex;   ///< of Start::previous, as given; empty: there is none yet, begin at the centres
+  std::vector<SimplexPoint> core_simplex;      ///< the same of the cores, which GJK begins with: each point, or the core's nearest to it
 };
 
 }  // namespace gjkdbg

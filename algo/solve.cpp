@@ -25,7 +25,7 @@ Result solve_convex(const Body& a, const Body& b, const Query query, const Setti
     const auto pair = prepare(a, b, D, settings.scalar, scale);
     if (!simplex) return pair->run(settings, query);
     Settings from = settings;
-    from.initial_simplex = *simplex;
+    from.core_simplex = *simplex;
     const Result result = pair->run(from, query);
     *simplex = pair->simplex();
     return result;
@@ -39,7 +39,7 @@ Result solve_convex(const Body& a, const Body& b, const Query query, const Setti
   LateFeatures features_a(a.shape, D), features_b(b.shape, D);
   const WorkingFrame<D, S> frame(a.pose, core_a.reference(), scale);
   WorldTrace<D, S> trace(frame, numbers, *sink);
-  WarmStart<D, S> warm = warm_start<D, S>(simplex ? *simplex : settings.initial_simplex, core_a, core_b, scale);
+  WarmStart<D, S> warm = warm_start<D, S>(simplex ? *simplex : settings.core_simplex, core_a, core_b, scale);
   const Result result = PairSolver<D, S, WorldTrace<D, S>>(core_a, core_b, a.pose, b.pose, scale, settings, trace, &features_a, &features_b, &warm).run(query);
   if (simplex) *simplex = simplex_points(warm, core_a, core_b, scale);
   return result;

@@ -5,6 +5,7 @@
 #include "algo/solve.h"
 #include "recordings/replay.h"
 #include "shapes/error.h"
+#include "shapes/world_support.h"
 #include "tests/oracle/exact_polytopes.h"
 #include "tests/support/random_scenes.h"
 
@@ -114,6 +115,64 @@ TEST(WarmStart, AnyPairFromAnotherPlace) {
     if (testing::Test::HasFailure()) break;
   }
   EXPECT_GT(begun, 2500);
+}
+
+/// GJK's simplices are of the cores: a point in a body's rounding stands for the core's nearest. The answer is that of a cold start.
+TEST(WarmStart, AnyPointsOfRoundBodiesWillDo) {
+  RandomScenes random(21);
+  const auto point_of = [&](const Body& body, int dimension) {
+    const WorldSupport support(Body{"", body.shape, identity_pose(dimension)}, dimension);
+    AnyVector p = AnyVector::Zero(dimension);
+    double all = 0;
+    for (int i = 0; i < 3; ++i) {
+      const AnyVector d = AnyVector::NullaryExpr(dimension, [&] { return random.uniform(-1, 1); });
+      const double weight = random.integer(0, 2);
+      p += weight * support(d, true), all += weight;
+      if (i == 2 && all == 0) return AnyVector(support(d, true));
+    }
+    return AnyVector(p / all);
+  };
+  int moved = 0;
+  for (int k = 0; k < pairs_asked(600); ++k) {
+    const int dimension = 2 + k % 2;
+    Scene scene = random.scene(dimension, Family::general, false);
+    for (Body& body : scene.bodies)
+      if (k % 3 == 0) body.shape.margin = random.uniform(0, 1);
+    if (k % 5 == 0) scene.bodies[0].shape = {Sum{std::make_shared<const Shape>(scene.bodies[0].shape), std::make_shared<const Shape>(Shape{Sphere{0.3}, 0.1})}, 0};
+    Method method;
+    for (int i = 0; i <= k % (dimension + 1); ++i) method.initial_simplex.push_back({point_of(scene.bodies[0], dimension), point_of(scene.bodies[1], dimension)});
+    const Settings settings = resolve_settings(method, scene);
+    for (std::size_t i = 0; i < settings.initial_simplex.size(); ++i) moved += settings.core_simplex[i].a != settings.initial_simplex[i].a;
+    const Result warm = solve(scene, settings), cold = solve(scene, resolve_settings({}, scene));
+    const double slack = 1e-9 * size_of(scene) + (*cold.upper_bound - *cold.lower_bound) + std::abs(*warm.upper_bound - *warm.lower_bound);
+    EXPECT_LE(*warm.lower_bound, *warm.upper_bound) << k;
+    EXPECT_NEAR(*warm.signed_distance, *cold.signed_distance, slack) << k;
+    Recorder recorder;
+    EXPECT_EQ(*solve(scene, settings, recorder).signed_distance, *warm.signed_distance) << k;
+    if (testing::Test::HasFailure()) break;
+  }
+  EXPECT_GT(moved, pairs_asked(600) / 4);
+}
+
+/// Of a sum of curved bodies GJK tells no point on the border from one a little outside; its own supports are points of it.
+TEST(WarmStart, ACurvedSumTakesItsOwnSimplex) {
+  RandomScenes random(22);
+  for (int k = 0; k < pairs_asked(200); ++k) {
+    const Shape segment{PointSet{PointSetKind::segment, {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, random.uniform(-2, 2), 0.5)}, {}}, 0};
+    const Shape round = k % 2 == 0 ? Shape{Cylinder{1, 0.5, 1}, 0} : Shape{Cone{1, 0.5, 1}, 0};
+    SceneFile file;
+    file.scene.dimension = 3, file.scene.query = Query::distance;
+    file.scene.bodies = {Body{"A", {Sum{std::make_shared<const Shape>(round), std::make_shared<const Shape>(segment)}, 0}, identity_pose(3)},
+                         Body{"B", {Box{Eigen::Vector3d(-0.5, -0.5, -0.5), Eigen::Vector3d(0.5, 0.5, 0.5), true}, 0}, identity_pose(3)}};
+    file.scene.bodies[1].pose.position = Eigen::Vector3d(3, random.uniform(-1, 1), random.uniform(-1, 1));
+    const Recording cold = record(file);
+    file.method.start = Start::previous, file.method.initial_simplex = last_simplex(cold);
+    const Recording warm = record(file);
+    EXPECT_NEAR(*warm.result.signed_distance, *cold.result.signed_distance, 1e-9) << k;
+    EXPECT_LE(*warm.result.lower_bound, *cold.result.upper_bound) << k;
+    EXPECT_GE(*warm.result.upper_bound, *cold.result.lower_bound) << k;
+    if (testing::Test::HasFailure()) break;
+  }
 }
 
 TEST(WarmStart, RefusesWhatIsNoSimplexOfTheBodies) {
