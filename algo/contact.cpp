@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -214,6 +215,10 @@ std::vector<ContactPoint> contact_points(const Body& a, const Body& b, const Res
   const AnyVector outward = reference_is_a ? n : AnyVector(-n), on_face = reference.disc ? AnyVector(reference.disc->center) : reference.points[0];
   const auto contacts = behind(common_outline(incident, reference, outward), on_face, outward, reference.radius, incident, size, reference_is_a);
   return contacts.empty() ? witness : contacts;
+}
+
+double least_apart(double size_a, double size_b, double far) {
+  return 1e-9 * std::min(size_a, size_b) + 64 * std::numeric_limits<double>::epsilon() * (size_a + size_b + far);
 }
 
 }  // namespace gjkdbg

@@ -19,4 +19,7 @@ namespace gjkdbg {
 /// World frame; the depth of every contact point is >= 0 and at most that of the pair, to rounding.
 std::vector<ContactPoint> contact_points(const Body& a, const Body& b, const Result& result);
 
+/// Contacts of parts of two bodies that are no farther from each other are one: a share of the smaller body's size, and what rounding leaves of a point `far` from the world's origin.
+double least_apart(double size_a, double size_b, double far);
+
 }  // namespace gjkdbg

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "algo/contact.h"
 #include "algo/impulses.h"
 #include "algo/motion.h"
 #include "shapes/mass.h"
@@ -224,12 +225,24 @@ class Simulation {
     }
   }
 
+      if (is_known(contact)) continue;
   void tell_limit(std::size_t i, std::size_t j, bool touch) {
     const std::string message = "The search between bodies " + std::to_string(i) + " and " + std::to_string(j) + " came to its limit. " +
                                 (touch ? "Which way they touch, and how deep, is not known: they are kept from moving into each other, do not bounce, and are put apart by no more than is proven."
                                        : "Whether they touch is not known: they are taken for apart.");
     (*trace_)(world::Warning{"contact-unknown", message});
   }
+  /// On the edge that two triangles share it is a contact of each.
+  bool is_known(const Contact& contact) const {
+    const auto first = static_cast<std::size_t>(contact.first), second = static_cast<std::size_t>(contact.second);
+    if (parts_[first].size() * parts_[second].size() == 1) return false;
+    const double apart = least_apart(bodies_[first].reach, bodies_[second].reach, contact.point.norm());
+    return std::any_of(contacts_.begin(), contacts_.end(), [&](const Contact& c) {
+      return c.first == contact.first && c.second == contact.second && (c.point - contact.point).norm() <= apart && std::abs(c.depth - contact.depth) <= apart &&
+             std::abs(c.proven - contact.proven) <= apart && (c.normal - contact.normal).norm() <= 1e-6;
+    });
+  }
+
 
   // --- Impulses ---------------------------------------------------------------------------------------------------------------
 

@@ -64,16 +64,18 @@ void merge(std::optional<Result>& total, const Result& part) {
   total = merged;
 }
 
-/// Of all parts that are touched along the answer's normal: what lies on several triangles of a flat is a contact with each.
-std::vector<ContactPoint> joined_contacts(const std::vector<Result>& parts, const Result& total) {
+/// Of all parts that are touched along the answer's normal: what lies on several triangles of a flat, or on the edge between two, is a contact with each.
+std::vector<ContactPoint> joined_contacts(const std::vector<Result>& parts, const Result& total, const Scene& scene) {
   if (parts.size() == 1) return *parts[0].contacts;
+  if (parts.empty() || !total.normal) return {};  // none touches, or one overlaps by a depth that was not asked for
   std::vector<ContactPoint> contacts;
+  const double apart = least_apart(size_of(scene.bodies[0].shape), size_of(scene.bodies[1].shape), total.witness_a->norm());
   double size = 0;
   for (const Result& part : parts) {
     if ((*part.normal - *total.normal).norm() > 1e-6) continue;
     for (const ContactPoint& point : *part.contacts) {
       size = std::max(size, (point.point_a - *total.witness_a).norm());
-      const auto same = [&](const ContactPoint& other) { return (other.point_a - point.point_a).norm() <= 1e-9 * size; };
+      const auto same = [&](const ContactPoint& other) { return (other.point_a - point.point_a).norm() <= std::max(apart, 1e-9 * size); };
       if (std::none_of(contacts.begin(), contacts.end(), same)) contacts.push_back(point);
     }
   }
@@ -100,7 +102,7 @@ Result solve_scene(const Scene& scene, const Settings& settings, TraceSink* sink
       if (scene.query == Query::intersect && total->intersecting) return *total;
       if (result.contacts) parts.push_back(std::move(result));
     }
-  if (scene.query == Query::contact) total->contacts = joined_contacts(parts, *total);
+  if (scene.query == Query::contact) total->contacts = joined_contacts(parts, *total, scene);
   return *total;
 }
 

@@ -202,6 +202,35 @@ TEST(Contact, ACylinderThatSlidesComesToRollStraight) {
   EXPECT_LE(std::abs(s.velocity[0]) + std::abs(s.position[0]), 1e-6) << "it does not turn aside";
 }
 
+/// The edge that two triangles share is one, and what it touches it touches once.
+TEST(Contact, AnEdgeOfTwoTrianglesTouchesOnce) {
+  const auto ridge = contacts(placed(R"({"type": "mesh", "points": [[-3, 0, 0], [3, 0, 0], [0, -2, 3], [0, -2, -3]], "triangles": [[0, 1, 2], [1, 0, 3]]})", "[0, 0, 0]"),
+                              placed(R"({"type": "box", "half_extents": [0.5, 0.6, 0.7]})", "[-0.2, 0.4, 0.1]", R"({"axis": [2, 0, 2], "angle": 45})"));
+  EXPECT_EQ(ridge.size(), 1u);
+  const Recording moving = record(scene_of(
+      R"("query": "simulate", "steps": 3, "gravity": [0, -9.81, 0])",
+      placed(R"({"type": "mesh", "points": [[-3, 0.1, 0], [3, -0.15, 0], [0.2, -2, 3], [-0.3, -2, -3]], "triangles": [[0, 1, 2], [1, 0, 3]]})", "[0, 0, 0]", "", R"(, "static": true)") + ", " +
+          placed(R"({"type": "box", "half_extents": [0.5, 0.6, 0.7]})", "[0.3, 0.45, 0.02]", R"({"axis": [1, 2, 3], "angle": 77})")));
+  std::vector<recorded::ContactFound> found;
+  for (const Event& event : moving.events)
+    if (const auto* contact = std::get_if<recorded::ContactFound>(&event)) {
+      for (const auto& other : found) EXPECT_TRUE(other.time != contact->time || (other.point - contact->point).norm() > 1e-9 || (other.normal - contact->normal).norm() > 1e-6);
+      found.push_back(*contact);
+    }
+  EXPECT_GE(found.size(), 1u);
+}
+
+/// Of a ball around a point of one triangle no depth is told, nor a normal that the contacts with others could have.
+TEST(Contact, WithoutADepthThereIsNone) {
+  SceneFile file = scene_of(R"("query": "contact")", placed(R"({"type": "mesh", "points": [[-3, 0, -3], [3, 0, -3], [0, 0, 3], [-3, 0.5, -3], [3, 0.5, -3], [0, 0.5, 3], [0, 0.5, -9]], "triangles": [[0, 1, 2], [3, 4, 5], [4, 3, 6]]})", "[0, 0, 0]") +
+                                                         ", " + placed(R"({"type": "sphere", "radius": 1})", "[0, 0, -2.75]"));
+  file.method.penetration = Penetration::none;
+  const Result r = record(file).result;
+  EXPECT_TRUE(r.intersecting);
+  EXPECT_FALSE(r.normal);
+  EXPECT_TRUE(r.contacts && r.contacts->empty());
+}
+
 /// Its sides would be looked for along a normal that is none of theirs (sim-log-pile with a limit of 2: contacts beside both logs).
 TEST(ContactPoints, OfARunThatEndedAtItsLimitAreTheWitnesses) {
   Scene scene;
