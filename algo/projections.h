@@ -86,7 +86,7 @@ class Projections {
         const V upright = upright_way(v);
         const S height = plane(upright, upright.norm());
         lower_ = std::max(lower_, height - floor_);
-        result_.nearest.normal = -upright / upright.norm();
+        set_normal(v, distance, upright);
         if (distance - height <= tolerance_ * distance + floor_ || lower_ > enough) return ProjectionsStatus::separated;
         if (moved <= floor_ * floor_) return ProjectionsStatus::undecided;
       }
@@ -123,6 +123,14 @@ class Projections {
       }
     }
     return upright.dot(upright) > S(0.5) * v.dot(v) ? upright : v;
+  }
+
+  /// The plane proves the distance to the tolerance t, and leans by sqrt(2 t) against v at most: too far for the points, which lie along v. Theirs is the normal, unless
+  /// rounding is all that v has more.
+  void set_normal(const V& v, S distance, const V& upright) {
+    const V aside = v - upright;
+    if (aside.dot(aside) <= floor_ * floor_) result_.nearest.normal = -upright / upright.norm();
+    else result_.nearest.normal = -v / distance;
   }
 
   S plane(const V& v, S distance) {

@@ -146,6 +146,46 @@ TEST(Projections, AgreeWithExactArithmeticAndWithGjk) {
   std::printf("%d of %d pairs, %d apart; %d left to GJK\n", used, count, apart, undecided);
 }
 
+/// How far a point of the world lies outside a body, as far as is proven.
+double proven_outside(const Body& body, const AnyVector& point) {
+  Scene probe;
+  probe.dimension = static_cast<int>(point.size()), probe.query = Query::distance;
+  probe.bodies = {body, Body{"", {PointSet{PointSetKind::point, {AnyVector::Zero(probe.dimension)}, {}}, 0}, identity_pose(probe.dimension)}};
+  probe.bodies[1].pose.position = point;
+  return *solve(probe, resolve_settings({}, probe)).lower_bound;
+}
+
+/// However coarse the tolerance is: the plane that proves the distance leans against b - a by the root of it, and leaves the points where they are.
+TEST(Projections, WitnessesLieOnTheBodies) {
+  RandomScenes random(77);
+  int used = 0, plain = 0;
+  for (int k = 0; k < pairs_asked(3000); ++k) {
+    Scene scene = random.scene(2 + k % 2, Family::general, false);
+    if (!suits(scene)) continue;
+    SCOPED_TRACE("pair " + std::to_string(k));
+    Settings settings = projections(scene);
+    if (k % 4 > 0) settings.tolerance = std::pow(10, -2 * (k / 4 % 5) - 2);
+    const Result r = solve(scene, settings), yes = solve(scene, resolve_settings({}, scene));
+    if (r.intersecting) continue;
+    ++used;
+    const double size = size_of(scene) + *r.signed_distance;
+    EXPECT_LE(proven_outside(scene.bodies[0], *r.witness_a), 1e-12 * size);
+    EXPECT_LE(proven_outside(scene.bodies[1], *r.witness_b), 1e-12 * size);
+    EXPECT_LE((*r.witness_b - *r.witness_a - *r.signed_distance * *r.normal).norm(), 1e-14 * size);
+    EXPECT_NEAR(r.normal->norm(), 1, 1e-14);
+    EXPECT_LE(*r.lower_bound, *yes.upper_bound);
+    EXPECT_GE(*r.upper_bound, *yes.lower_bound);
+    Recorder recorder;
+    const Result traced = solve(scene, settings, recorder);
+    EXPECT_EQ(*traced.witness_a, *r.witness_a);
+    EXPECT_EQ(*traced.normal, *r.normal);
+    plain += scene.bodies[0].shape.margin == 0 && scene.bodies[1].shape.margin == 0;
+    if (testing::Test::HasFailure()) break;
+  }
+  EXPECT_GT(used, pairs_asked(3000) / 20);
+  std::printf("%d pairs apart, %d without a margin\n", used, plain);
+}
+
 TEST(Projections, AreRefusedWhereThereIsNoFormula) {
   Scene scene;
   scene.bodies = {Body{"A", {Sphere{1}, 0}, identity_pose(3)}, Body{"wedge", {PointSet{PointSetKind::hull, {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0)}, {}}, 0}, identity_pose(3)}};
