@@ -18,6 +18,8 @@ using M3 = Eigen::Matrix3d;
 
 constexpr double left_over = 1e-3;    ///< of the size: overlap that is left where it is
 constexpr double moved_apart = 0.4;   ///< share of the rest that a step takes away
+constexpr double least_arm = 1e-60;   ///< of gyration: less is a point. Spins are speeds by arms, and their squares have to stay numbers, as those of the longest lengths
+constexpr double most_turn = 1e15;    ///< radians a step: of more no digit says where it ends
 
 class Simulation {
  public:
@@ -55,10 +57,10 @@ class Simulation {
     b.v = in_space(m.velocity) + w.cross(b.r * b.center);
     b.inertia = m.mass * mass.inertia;
     if (dimension_ == 2) b.inertia = V3(0, 0, b.inertia(2, 2)).asDiagonal();
-    // What has no extent across an axis does not resist turning about it, and does not turn.
+    // What has no extent across an axis does not resist turning about it, and does not turn; nor does what has next to none about any.
     const Eigen::SelfAdjointEigenSolver<M3> axes(b.inertia);
     const double most = axes.eigenvalues().cwiseAbs().maxCoeff();
-    if (dimension_ > 1 && most > 0) {
+    if (dimension_ > 1 && most > m.mass * least_arm * least_arm) {
       V3 inverse = V3::Zero();
       for (int i = 0; i < 3; ++i)
         if (axes.eigenvalues()[i] > 1e-12 * most) inverse[i] = 1 / axes.eigenvalues()[i];
@@ -119,7 +121,7 @@ class Simulation {
     for (RigidBody& b : bodies_) {
       if (!movable(b)) continue;
       b.x += b.v * h_;
-      if (!b.turns || b.l.isZero(0)) continue;
+      if (!b.turns || b.l.isZero(0) || !(b.w().norm() * h_ < most_turn)) continue;
       switch (scene_.motion->integrator) {
         case Integrator::explicit_euler: turn_as_taught(b); break;
         case Integrator::semi_implicit_euler: turn_by_exponential(b); break;
