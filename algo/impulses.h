@@ -18,6 +18,7 @@ struct RigidBody {
   Eigen::Matrix3d r = Eigen::Matrix3d::Identity();     ///< rotation from body to world
   Eigen::Vector3d center{0, 0, 0};                                                       ///< of mass, in the body's frame
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero(), inverse = Eigen::Matrix3d::Zero();  ///< body axes, about the centre of mass; inverse: 0 across axes without extent
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();                                    ///< of that inertia, the least first
   double mass = 1, inverse_mass = 1, reach = 0;  ///< inverse 0: static; no point is farther than `reach` from x
   bool turns = false;                            ///< whether l and inverse count: neither static nor in 1D, and of some extent
 

@@ -64,7 +64,9 @@ class Simulation {
       V3 inverse = V3::Zero();
       for (int i = 0; i < 3; ++i)
         if (axes.eigenvalues()[i] > 1e-12 * most) inverse[i] = 1 / axes.eigenvalues()[i];
-      b.inverse = axes.eigenvectors() * inverse.asDiagonal() * axes.eigenvectors().transpose();
+      b.axes = axes.eigenvectors();
+      if (b.axes.determinant() < 0) b.axes.col(2) *= -1;
+      b.inverse = b.axes * inverse.asDiagonal() * b.axes.transpose();
       b.turns = true;
       b.l = b.r * b.inertia * b.r.transpose() * w;
     }
@@ -142,15 +144,17 @@ class Simulation {
     b.r = rotation(half.w() * h_) * b.r;
   }
 
-  /// R' = [w] R, then Gram and Schmidt from the first column.
+  /// R' = [w] R for the principal axes, then Gram and Schmidt from the one of least inertia on. That one moves as told, by h w x u, and so a line u, which has no inertia
+  /// about itself, stays square to L = I w: where it is turned aside, L has a part along it that it cannot turn with.
   void turn_as_taught(RigidBody& b) const {
-    M3 cross;
+    M3 cross, u = b.r * b.axes;
     const V3 w = b.w();
     cross << 0, -w[2], w[1], w[2], 0, -w[0], -w[1], w[0], 0;
-    b.r += h_ * cross * b.r;
-    b.r.col(0).normalize();
-    b.r.col(1) = (b.r.col(1) - b.r.col(0) * b.r.col(0).dot(b.r.col(1))).normalized();
-    b.r.col(2) = b.r.col(0).cross(b.r.col(1));
+    u += h_ * cross * u;
+    u.col(0).normalize();
+    u.col(1) = (u.col(1) - u.col(0) * u.col(0).dot(u.col(1))).normalized();
+    u.col(2) = u.col(0).cross(u.col(1));
+    b.r = u * b.axes.transpose();
   }
 
   /// q' = w q / 2 with w = I(q)^-1 L, L constant between impulses.
@@ -221,19 +225,13 @@ class Simulation {
       const double proven = limited ? std::min(c.depth, std::max(0.0, -r.upper_bound.value_or(0))) : c.depth;
       Contact contact{static_cast<int>(i), static_cast<int>(j), in_space(AnyVector((c.point_a + c.point_b) / 2)), in_space(*r.normal).normalized(), c.depth, proven,
                       restitution, std::sqrt(a.friction * b.friction), fall_left, {bodies_[i].v, bodies_[j].v}};
+      if (is_known(contact)) continue;
       contacts_.push_back(contact);
       if (trace_)
         (*trace_)(world::ContactFound{time_, {contact.first, contact.second}, in_scene(contact.point), in_scene(contact.normal), contact.depth});
     }
   }
 
-      if (is_known(contact)) continue;
-  void tell_limit(std::size_t i, std::size_t j, bool touch) {
-    const std::string message = "The search between bodies " + std::to_string(i) + " and " + std::to_string(j) + " came to its limit. " +
-                                (touch ? "Which way they touch, and how deep, is not known: they are kept from moving into each other, do not bounce, and are put apart by no more than is proven."
-                                       : "Whether they touch is not known: they are taken for apart.");
-    (*trace_)(world::Warning{"contact-unknown", message});
-  }
   /// On the edge that two triangles share it is a contact of each.
   bool is_known(const Contact& contact) const {
     const auto first = static_cast<std::size_t>(contact.first), second = static_cast<std::size_t>(contact.second);
@@ -245,6 +243,12 @@ class Simulation {
     });
   }
 
+  void tell_limit(std::size_t i, std::size_t j, bool touch) {
+    const std::string message = "The search between bodies " + std::to_string(i) + " and " + std::to_string(j) + " came to its limit. " +
+                                (touch ? "Which way they touch, and how deep, is not known: they are kept from moving into each other, do not bounce, and are put apart by no more than is proven."
+                                       : "Whether they touch is not known: they are taken for apart.");
+    (*trace_)(world::Warning{"contact-unknown", message});
+  }
 
   // --- Impulses ---------------------------------------------------------------------------------------------------------------
 
