@@ -67,6 +67,7 @@ void merge(std::optional<Result>& total, const Result& part) {
 /// Of all parts that are touched along the answer's normal: what lies on several triangles of a flat, or on the edge between two, is a contact with each.
 std::vector<ContactPoint> joined_contacts(const std::vector<Result>& parts, const Result& total, const Scene& scene) {
   if (parts.size() == 1) return *parts[0].contacts;
+  if (parts.empty() || !total.normal) return {};  // none touches, or one overlaps by a depth that was not asked for
   std::vector<ContactPoint> contacts;
   const double apart = least_apart(size_of(scene.bodies[0].shape), size_of(scene.bodies[1].shape), total.witness_a->norm());
   double size = 0;

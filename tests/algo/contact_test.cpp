@@ -220,6 +220,17 @@ TEST(Contact, AnEdgeOfTwoTrianglesTouchesOnce) {
   EXPECT_GE(found.size(), 1u);
 }
 
+/// Of a ball around a point of one triangle no depth is told, nor a normal that the contacts with others could have.
+TEST(Contact, WithoutADepthThereIsNone) {
+  SceneFile file = scene_of(R"("query": "contact")", placed(R"({"type": "mesh", "points": [[-3, 0, -3], [3, 0, -3], [0, 0, 3], [-3, 0.5, -3], [3, 0.5, -3], [0, 0.5, 3], [0, 0.5, -9]], "triangles": [[0, 1, 2], [3, 4, 5], [4, 3, 6]]})", "[0, 0, 0]") +
+                                                         ", " + placed(R"({"type": "sphere", "radius": 1})", "[0, 0, -2.75]"));
+  file.method.penetration = Penetration::none;
+  const Result r = record(file).result;
+  EXPECT_TRUE(r.intersecting);
+  EXPECT_FALSE(r.normal);
+  EXPECT_TRUE(r.contacts && r.contacts->empty());
+}
+
 /// Its sides would be looked for along a normal that is none of theirs (sim-log-pile with a limit of 2: contacts beside both logs).
 TEST(ContactPoints, OfARunThatEndedAtItsLimitAreTheWitnesses) {
   Scene scene;
