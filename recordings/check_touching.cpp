@@ -80,17 +80,24 @@ struct Nearly {
   double turned_by_rounding(double v) const { return known_to() / v * c.size; }
   double known_to() const { return 64 * (single ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon()) * c.size; }
 
-  /// How far the last simplex that was told is from the origin; 0 where none was, where it holds the origin to rounding, and where it is farther than what may be taken for touching.
+  /// How far the last simplex that was told is from the origin; 0 where none was, and where it is farther than what may be taken for touching. One that holds the origin to rounding has
+  /// no direction towards it, but the program's own v has, and counts where it is what was asked along.
   double last_v() const {
     std::vector<AnyVector> w;
-    for (const Event& event : c.recording.events)
+    AnyVector told;
+    bool asked_along = false;
+    for (const Event& event : c.recording.events) {
       if (const auto* e = std::get_if<recorded::SimplexReduced>(&event)) {
-        w.clear();
+        w.clear(), told = e->closest;
         for (const int number : e->region)
           if (const auto found = c.vertices.find(number); found != c.vertices.end()) w.push_back(found->second);
+      } else if (const auto* q = std::get_if<recorded::SupportQueried>(&event)) {
+        asked_along = told.size() > 0 && told.allFinite() && !told.isZero(0) && q->direction.allFinite() && q->direction.stableNormalized().dot(told.stableNormalized()) < -0.999;
       }
+    }
     const double v = w.empty() ? 0 : nearest_point(w).v.norm();
-    return v > known_to() && v <= (single ? 1e-4 : 1e-7) * c.size ? v : 0;
+    if (v <= known_to()) return asked_along ? told.norm() : 0;
+    return v <= (single ? 1e-4 : 1e-7) * c.size ? v : 0;
   }
 
   void apart(double rounding, bool overlap) const {

@@ -291,6 +291,15 @@ class Solver(unittest.TestCase):
             for query in ("intersect", "distance", "penetration"):
                 path.write_text(json.dumps({**{key: value for key, value in scene.items() if key != "expect"}, "query": query}))
                 self.assertEqual(self.run_kit(path, f"/usr/bin/python3 {KIT}"), [], query)
+            # Two boxes that touch, 100 from the origin: v is 4e-14, which is nothing in single precision, and asked along all the same.
+            turned = {"axis": [1.5366415855542466, -1.0761693667043486, 0.98538156739061], "angle": 149.890158502102}
+            boxes = [([0.7631860451273211, 0.8801146296637452, 0.9281193174657787], [100, -50, 30]), ([0.8701306054386404, 0.5204061377165653, 0.6867197444579896],
+                     [99.90369977569668, -50.8598843547517, 31.41955924295843])]
+            bodies = [{"shape": {"type": "box", "half_extents": sizes}, "pose": {"position": place, "rotation": turned}} for sizes, place in boxes]
+            path.write_text(json.dumps({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "intersect", "bodies": bodies}))
+            strict = pathlib.Path(folder, "strict.py")
+            strict.write_text(SOURCE.replace("1e-12 * scale", "1e-15 * scale"))
+            self.assertEqual(self.run_kit(path, f"/usr/bin/python3 {strict}", "--scalar", "float"), [])
 
     def test_the_first_direction_negated_does_no_harm(self):
         """As dyn4j searches. Where the first two points are the same, or the first is nearer than the edge, Muratori's form needs the other direction."""
