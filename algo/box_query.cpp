@@ -281,6 +281,8 @@ template <bool of_a>
   const auto seen_from_a = [&](const Lanes& x, const Lanes& y, const Lanes& z) __attribute__((target("avx2"), always_inline)) { return sum(of_a.of[0], of_a.of[1], of_a.of[2], x, y, z); };
   PlacedBoxes pair;
   for (int j = 0; j < 3; ++j) pair.column[j] = seen_from_a(all(turn_b[3 * j]), all(turn_b[3 * j + 1]), all(turn_b[3 * j + 2]));
+  const Lanes least = _mm256_min_pd(_mm256_min_pd(length_of(pair.column[0]), length_of(pair.column[1])), length_of(pair.column[2]));
+  if (bits(_mm256_cmp_pd(least, all(Boxes<double>::next_to_zero), _CMP_LE_OQ)) != 0) [[unlikely]] return false;
   // relative_pose(): the difference of the positions in twice the precision (Knuth's sum).
   const Lanes to_b = times(three(pose_b.position.data()), all(query.scale)), from_a = negative(times(three(pose_a.position.data()), all(query.scale)));
   const Lanes high = plus(to_b, from_a), of_b = minus(high, to_b), low = plus(minus(to_b, minus(high, of_b)), minus(from_a, of_b));
@@ -289,8 +291,6 @@ template <bool of_a>
   const Three rows = transposed(pair.column[0], pair.column[1], pair.column[2]);
   for (int i = 0; i < 3; ++i) pair.row[i] = rows.of[i];
   pair.q = sum(pair.row[0], pair.row[1], pair.row[2], lane<0>(pair.p), lane<1>(pair.p), lane<2>(pair.p));
-  const Lanes least = _mm256_min_pd(_mm256_min_pd(length_of(pair.column[0]), length_of(pair.column[1])), length_of(pair.column[2]));
-  if (bits(_mm256_cmp_pd(least, all(Boxes<double>::next_to_zero), _CMP_LE_OQ)) != 0) [[unlikely]] return false;
   pair.a = three(query.half_a.data()), pair.b = three(query.half_b.data());
 
   Faces faces_a, faces_b;
