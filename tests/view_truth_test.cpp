@@ -81,6 +81,8 @@ TEST_F(Truth, BodiesStandWhileARayIsCast) {
 TEST_F(Truth, TheBooleanFormIsShownWholeBodies) {
   app.open_gallery("boolean-round");
   EXPECT_EQ(session.meshes().radius, 0);
+  session.go_to(5);
+  EXPECT_NE(explain(session.recording(), session.frame()).text.find("the bodies touch or overlap"), std::string::npos);
   for (const Event& event : session.recording().events)
     if (const auto* e = std::get_if<recorded::SupportQueried>(&event)) {
       const ViewPoint d = to_view(AnyVector(e->direction.normalized()));

@@ -58,7 +58,7 @@ struct Explain : ExplainMethods {
     return w.size() == 4 && std::abs(edge(1).cross(edge(2)).dot(edge(3))) > 1e-6;
   }
 
-  bool rounded() const { return gjkdbg::rounded(recording.scene.scene); }
+  bool rounded() const { return recording.settings.name != MethodName::gjk_boolean && gjkdbg::rounded(recording.scene.scene); }  ///< whether the method goes by cores
   const char* bodies() const { return rounded() ? "cores" : "bodies"; }
 
   /// GJK sees the cores alone.

@@ -9,15 +9,10 @@
 
 #include "recordings/check.h"
 #include "recordings/gallery.h"
+#include "tests/support/gallery_run.h"
 
 namespace gjkdbg {
 namespace {
-
-Recording gallery_run(const char* scene, MethodName method = MethodName::gjk) {
-  SceneFile file = read_scene(read_gallery(GJKDBG_GALLERY).file(scene));
-  if (!file.scene.motion) change_name(file.method, method);
-  return record(file);
-}
 
 /// A static scene: two bodies, each a shape, its place, and a query, by a method.
 Recording of_bodies(int dimension, const std::string& query, const std::string& a, const std::string& at_a, const std::string& b, const std::string& at_b, MethodName method = MethodName::gjk) {
