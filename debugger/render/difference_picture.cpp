@@ -108,7 +108,7 @@ class DifferencePainter : public Painter {
     const ViewPoint tip = to_view(*frame_.normal) * std::max(0.0, *frame_.depth - meshes_.radius);
     if (!(tip.norm() > 1e-6 * unit())) return;
     picture_.lines.push_back({ViewPoint::Zero(), tip, palette_.text, 3, Stroke::solid, true, true});  // not the chosen face's colour, before which it lies
-    label(tip / 2, meshes_.radius > 0 ? "depth of the cores" : "depth", palette_.text);
+    area_label(tip / 2, meshes_.radius > 0 ? "depth of the cores" : "depth", palette_.text);
   }
 
   /// Beside another program's choice the face that is the nearest, in the colour in which the panel tells what is right.
@@ -120,7 +120,7 @@ class DifferencePainter : public Painter {
     const auto chosen = frame_.chosen ? frame_.faces.find(*frame_.chosen) : frame_.faces.end();
     if (!nearest || (chosen != frame_.faces.end() && chosen->second.distance <= nearest->distance + 1e-7 * unit())) return;
     face(*nearest, palette_.support, 0.12, 3, Stroke::dashed);
-    if (const auto at = middle_of(*nearest)) label(*at, "nearest: " + name_of(*nearest), palette_.support.mixed(palette_.text), 8, 30);
+    if (const auto at = middle_of(*nearest)) area_label(*at, "nearest: " + name_of(*nearest), palette_.support.mixed(palette_.text), 8, 30);
   }
 
   /// As the step's sentence calls it.
@@ -138,7 +138,7 @@ class DifferencePainter : public Painter {
 
   void name_face(const FrameFace& f) {
     const std::string name = name_of(f);
-    if (const auto at = middle_of(f)) label(*at, name, palette_.chosen.mixed(palette_.text), -4.2 * static_cast<double>(name.size()), -12);  // lighter than the face, on which it stands if it can
+    if (const auto at = middle_of(f)) area_label(*at, name, palette_.chosen.mixed(palette_.text), -text_width(name, false) / 2, -12);  // lighter than the face, on which it stands if it can
   }
 
   /// MPR: the rays from the inner point to the portal's corners, and the one through the origin.

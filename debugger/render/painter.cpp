@@ -60,7 +60,7 @@ void Painter::mark_number(const ViewPoint& at, double value, double dx, double d
   const ViewRectangle& view = projection_.rectangle();
   const double width = 7 * static_cast<double>(std::strlen(text));
   if (p.x + dx < view.x + 2 || p.x + dx + width > view.x + view.width || p.y + dy < view.y || p.y + dy + 12 > view.y + view.height) return;
-  picture_.scale_marks.push_back({at, text, palette_.text_faint.with_alpha(0.75), dx, dy, true, false});
+  picture_.scale_marks.push_back({at, text, palette_.text_faint.with_alpha(0.75), dx, dy, true});
 }
 
 void Painter::mesh(const DisplayMesh& m, Colour colour, double opacity, const ViewPoint& offset) {
@@ -90,15 +90,19 @@ void Painter::mesh(const DisplayMesh& m, Colour colour, double opacity, const Vi
 }
 
 void Painter::label(const ViewPoint& at, const std::string& text, Colour colour, double dx, double dy) {
-  if (settings_.labels && !text.empty()) picture_.labels.push_back({at, text, colour, dx, dy, false, false});
+  if (settings_.labels && !text.empty()) picture_.labels.push_back({at, text, colour, dx, dy});
+}
+
+void Painter::area_label(const ViewPoint& at, const std::string& text, Colour colour, double dx, double dy) {
+  if (settings_.labels && !text.empty()) picture_.labels.push_back({at, text, colour, dx, dy, false, false, true});
 }
 
 void Painter::spare_label(const ViewPoint& at, const std::string& text, Colour colour, double dx, double dy) {
-  if (settings_.labels) picture_.labels.push_back({at, text, colour, dx, dy, false, false, true});
+  if (settings_.labels) picture_.labels.push_back({at, text, colour, dx, dy, false, false, false, true});
 }
 
 void Painter::small_label(const ViewPoint& at, const std::string& text, Colour colour, bool spare) {
-  if (settings_.labels && !text.empty()) picture_.labels.push_back({at, text, colour, 6, -8, true, false, spare});
+  if (settings_.labels && !text.empty()) picture_.labels.push_back({at, text, colour, 6, -8, true, false, false, spare});
 }
 
 const FrameVertex* Painter::vertex(int number) const {

@@ -35,6 +35,8 @@ class Painter {
   void grid();
   void mesh(const DisplayMesh& m, Colour colour, double opacity, const ViewPoint& offset);
   void label(const ViewPoint& at, const std::string& text, Colour colour, double dx = 9, double dy = -9);
+  /// Of what lies at the point: a face, an arrow.
+  void area_label(const ViewPoint& at, const std::string& text, Colour colour, double dx = 9, double dy = -9);
   /// Where there is a free place.
   void spare_label(const ViewPoint& at, const std::string& text, Colour colour, double dx, double dy);
   void small_label(const ViewPoint& at, const std::string& text, Colour colour, bool spare = false);
