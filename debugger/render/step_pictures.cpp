@@ -31,6 +31,36 @@ ViewPoint row_offset(int body, int dimension, const Projection& projection) {
   return {0, (body % 2 == 0 ? 0.3 : -0.3) * half_view(projection), 0};
 }
 
+std::vector<BodyHandle> place_handles(const std::vector<ViewPoint>& middles, const Projection& projection, double scale) {
+  const double r = handle_radius * scale, apart = 2.5 * r;
+  std::vector<Eigen::Vector2d> rings;
+  const auto nearest = [&](const Eigen::Vector2d& p) { return std::min_element(rings.begin(), rings.end(), [&](const auto& x, const auto& y) { return (x - p).squaredNorm() < (y - p).squaredNorm(); }); };
+  for (const ViewPoint& middle : middles) {
+    const Projected at = projection(middle);
+    Eigen::Vector2d p(at.x, at.y);
+    for (int tries = 0; tries < 8 && !rings.empty(); ++tries) {
+      const Eigen::Vector2d other = *nearest(p), away = p - other;
+      if (away.norm() >= apart - 1e-6) break;
+      p = other + apart * (away.norm() > 1 ? away.normalized() : Eigen::Vector2d(0, 1));
+    }
+    rings.push_back(p);
+  }
+  std::vector<BodyHandle> handles;
+  for (std::size_t i = 0; i < middles.size(); ++i) {
+    const Projected at = projection(middles[i]);
+    const ViewPoint ring = middles[i] + projection.move(rings[i][0] - at.x, rings[i][1] - at.y);
+    Eigen::Vector2d beside(1.9 * r, -1.5 * r);
+    for (const Eigen::Vector2d& corner : {Eigen::Vector2d(1.9, -1.5), Eigen::Vector2d(-1.9, -1.5), Eigen::Vector2d(1.9, 1.5), Eigen::Vector2d(-1.9, 1.5)}) {
+      const Eigen::Vector2d disc = rings[i] + r * corner;
+      if (std::any_of(rings.begin(), rings.end(), [&](const auto& other) { return (other - disc).norm() < 1.5 * r; })) continue;
+      beside = r * corner;
+      break;
+    }
+    handles.push_back({ring, ring + projection.move(beside[0], beside[1])});
+  }
+  return handles;
+}
+
 std::string facet_name(int dimension) { return dimension == 1 ? "endpoint" : dimension == 2 ? "edge" : "face"; }
 
 char vertex_letter(std::ptrdiff_t place) { return static_cast<char>('A' + place); }

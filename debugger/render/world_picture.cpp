@@ -207,15 +207,16 @@ class WorldPainter : public Painter {
 
   /// Where the window draws the rings and letters that a body is held by: labels keep off them. Elsewhere the letters alone.
   void handles() {
-    for (std::size_t i = 0; i < meshes_.bodies.size(); ++i) {
-      const ViewPoint at = (moves() && frame_.step > 0 ? to_view(frame_.places[i].position) : middle(meshes_.bodies[i])) + one_d_offset(static_cast<int>(i));
+    std::vector<ViewPoint> middles;
+    for (std::size_t i = 0; i < meshes_.bodies.size(); ++i) middles.push_back((moves() && frame_.step > 0 ? to_view(frame_.places[i].position) : middle(meshes_.bodies[i])) + one_d_offset(static_cast<int>(i)));
+    const std::vector<BodyHandle> handles = place_handles(middles, projection_, settings_.scale);
+    for (std::size_t i = 0; i < middles.size(); ++i) {
       if (settings_.body_letters) {
-        label(at, body_letter(static_cast<int>(i)), body_colour(static_cast<int>(i)).mixed(palette_.text), -4, 0);
+        label(middles[i], body_letter(static_cast<int>(i)), body_colour(static_cast<int>(i)).mixed(palette_.text), -4, 0);
         continue;
       }
-      picture_.kept_free.push_back({at, palette_.text, 11, Mark::ring, -1});
-      const double pixel = 1 / projection_.pixels_per_length();
-      if (meshes_.dimension > 1) picture_.kept_free.push_back({at + (17 * projection_.right() + 13.5 * projection_.up()) * pixel, palette_.text, 5, Mark::disc, -1});
+      picture_.kept_free.push_back({handles[i].ring, palette_.text, handle_radius + 2, Mark::ring, -1});
+      if (meshes_.dimension > 1) picture_.kept_free.push_back({handles[i].disc, palette_.text, 5, Mark::disc, -1});
     }
   }
 
@@ -243,7 +244,7 @@ class WorldPainter : public Painter {
       const ContactPoint& c = (*r.contacts)[i];
       picture_.points.push_back({to_view(c.point_a), palette_.chosen, 5, Mark::square, -1});
       picture_.lines.push_back({to_view(c.point_a), to_view(c.point_b), palette_.chosen, 2, Stroke::solid, false, true});
-      if (r.contacts->size() > 1 && i < numbered_contacts) small_label(to_view(c.point_a), std::to_string(i + 1), palette_.chosen, true);
+      if (r.contacts->size() > 1 && i < numbered_contacts) spare_label(to_view(c.point_a), std::to_string(i + 1), palette_.chosen.mixed(palette_.text), 8, -10);
     }
   }
 };
