@@ -39,7 +39,7 @@ bool icon_button(const Theme& theme, const char* id, Icon icon, const char* tip,
   const bool pressed = ImGui::Button(id, size);
   if (strong) ImGui::PopStyleColor();
   draw_icon(ImGui::GetWindowDrawList(), icon, {at.x + size.x / 2, at.y + size.y / 2}, theme.px(6.5f), packed(strong ? rgb(0xffffff) : theme.palette.text));
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip);
+  tip_beside_row(theme, tip);
   ImGui::SameLine(0, theme.px(5));
   return pressed;
 }
