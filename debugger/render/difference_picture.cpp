@@ -148,7 +148,7 @@ class DifferencePainter : public Painter {
     picture_.points.push_back({inside, palette_.text, 6, Mark::ring, -1});
     label(inside, "inside", palette_.text, 9, 12);
     const ViewPoint ahead = -inside;
-    picture_.lines.push_back({inside, ahead.isZero(0) ? inside : ViewPoint(ahead.stableNormalized() * unit() * 0.8), palette_.text_soft, 1.6, Stroke::dashed, true, true});
+    picture_.lines.push_back({inside, ahead.isZero(0) ? inside : tip_in_view(ViewPoint::Zero(), ahead.stableNormalized() * unit() * 0.8), palette_.text_soft, 1.6, Stroke::dashed, true, true});
     if (frame_.portal.empty()) return;
     for (const int v : frame_.portal)
       if (const FrameVertex* p = vertex(v)) picture_.line(inside, to_view(p->w), palette_.chosen.with_alpha(0.5), 1.3);
@@ -267,8 +267,9 @@ class DifferencePainter : public Painter {
     if (!frame_.direction || frame_.depth) return;
     const ViewPoint d = arrow_along(*frame_.direction, direction_arrow);
     if (d.isZero(0)) return;
-    picture_.arrow(ViewPoint::Zero(), d, palette_.simplex);
-    label(d, "d", palette_.simplex);
+    const ViewPoint tip = tip_in_view(ViewPoint::Zero(), d);
+    picture_.arrow(ViewPoint::Zero(), tip, palette_.simplex);
+    label(tip, "d", palette_.simplex);
     if (settings_.support_plane && frame_.answered) support_plane(d.normalized());
   }
 

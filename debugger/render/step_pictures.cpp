@@ -171,8 +171,27 @@ void add_moved_difference(Bounds& bounds, const SceneMeshes& meshes, const Recor
 
 }  // namespace
 
+namespace {
+
+/// Of bodies that move, at the beginning and of a cast after every response: as long as they are fast.
+void add_velocities(std::vector<Arrow>& arrows, const Recording& recording) {
+  const std::vector<Body>& bodies = recording.scene.scene.bodies;
+  double fastest = 0;
+  for (const Body& body : bodies) fastest = std::max(fastest, body.motion ? body.motion->velocity.norm() : 0);
+  if (!(fastest > 0)) return;
+  const auto add = [&](const AnyVector& from, const AnyVector& velocity) { add_arrow(arrows, to_view(from), velocity, velocity_arrow * std::min(1.0, velocity.norm() / fastest)); };
+  for (const Body& body : bodies)
+    if (body.motion) add(body.pose.position, body.motion->velocity);
+  for (const Event& event : recording.events)
+    if (const auto* state = std::get_if<recorded::State>(&event); state && recording.scene.scene.query == Query::cast)
+      for (const recorded::BodyState& body : state->bodies) add(body.position, body.velocity);
+}
+
+}  // namespace
+
 Camera fit_world(const SceneMeshes& meshes, const Recording& recording) {
   std::vector<Arrow> arrows;
+  add_velocities(arrows, recording);
   const bool still = recording.scene.scene.query != Query::simulate;  // of a simulation thousands are asked, everywhere: the bodies would become small for them
   for (const Event& event : recording.events)
     if (const auto* e = std::get_if<recorded::SupportQueried>(&event); e && still) add_arrow(arrows, to_view(e->a), e->direction, support_arrow), add_arrow(arrows, to_view(e->b), e->direction, -support_arrow);
@@ -191,6 +210,8 @@ Camera fit_difference(const SceneMeshes& meshes, const Recording& recording) {
     bounds.around_origin = meshes.radius;
   }
   add_moved_difference(bounds, meshes, recording);
+  const std::vector<Body>& bodies = recording.scene.scene.bodies;
+  if (recording.settings.name == MethodName::ray_cast && bodies.size() > 1 && bodies[0].motion && bodies[1].motion) bounds.keep(to_view(AnyVector(bodies[1].motion->velocity - bodies[0].motion->velocity)));  // the ray
   std::vector<Arrow> arrows;
   for (const Event& event : recording.events) {
     if (const auto given = given_vertex(event)) bounds.keep(to_view(given->w));

@@ -50,7 +50,7 @@ inline constexpr double handle_radius = 9;  ///< pixels, before they are scaled
 /// One a body, by their middles: off one another where those lie together in the picture, the discs off the rings.
 std::vector<BodyHandle> place_handles(const std::vector<ViewPoint>& middles, const Projection& projection, double scale);
 /// The arrow of a direction in the difference, and of one at a body, as shares of half the view's shorter side.
-inline constexpr double direction_arrow = 0.42, support_arrow = 0.3, normal_arrow = 0.4;
+inline constexpr double direction_arrow = 0.42, support_arrow = 0.3, normal_arrow = 0.4, velocity_arrow = 0.35;
 /// Half of the view's shorter side, in lengths of the scene.
 double half_view(const Projection& projection);
 /// Intervals lie over one another: in 1D each is drawn a little off the line.

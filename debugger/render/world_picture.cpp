@@ -144,7 +144,7 @@ class WorldPainter : public Painter {
     for (std::size_t i = 0; i < frame_.places.size(); ++i) {
       const ViewPoint v = to_view(frame_.places[i].velocity);
       if (!(v.norm() > least_share * fastest)) continue;
-      const ViewPoint from = to_view(frame_.places[i].position) + one_d_offset(static_cast<int>(i)), tip = from + v * (0.35 * unit() / fastest);
+      const ViewPoint from = to_view(frame_.places[i].position) + one_d_offset(static_cast<int>(i)), tip = tip_in_view(from, v * (velocity_arrow * unit() / fastest));
       picture_.arrow(from, tip, palette_.support);
       if (named(static_cast<int>(i))) label(tip, "velocity" + of_body(i) + " " + three_digits(v.norm()), palette_.support);
     }
@@ -156,8 +156,9 @@ class WorldPainter : public Painter {
     const ViewPoint at = to_view(e.point), along = to_view(e.impulse);
     picture_.points.push_back({at, palette_.chosen, 5, Mark::square, -1});
     if (along.isZero(0)) return;
-    picture_.arrow(at, at + along.stableNormalized() * unit() * 0.3, palette_.chosen);
-    label(at + along.stableNormalized() * unit() * 0.3, "impulse", palette_.chosen);
+    const ViewPoint tip = tip_in_view(at, along.stableNormalized() * unit() * 0.3);
+    picture_.arrow(at, tip, palette_.chosen);
+    label(tip, "impulse", palette_.chosen);
   }
 
   // --- The world ------------------------------------------------------------------------------------------------
@@ -179,10 +180,11 @@ class WorldPainter : public Painter {
       if (!frame_.direction || !frame_.answered || frame_.depth) continue;  // the next direction is not theirs
       const ViewPoint d = arrow_along(*frame_.direction, support_arrow);
       if (d.isZero(0)) continue;
-      picture_.arrow(a, a + d, palette_.simplex);
-      picture_.arrow(b, b - d, palette_.simplex);
-      label(a + d, "d", palette_.simplex);
-      label(b - d, "-d", palette_.simplex);
+      const ViewPoint with_d = tip_in_view(a, d), against_d = tip_in_view(b, -d);
+      picture_.arrow(a, with_d, palette_.simplex);
+      picture_.arrow(b, against_d, palette_.simplex);
+      label(with_d, "d", palette_.simplex);
+      label(against_d, "-d", palette_.simplex);
     }
   }
 
@@ -235,7 +237,7 @@ class WorldPainter : public Painter {
     label(a, "witness a", palette_.body_a, 9, beside);
     label(b, "witness b", palette_.body_b, 9, -beside);
     if (r.normal) {
-      const ViewPoint tip = a + arrow_along(*r.normal, normal_arrow);
+      const ViewPoint tip = tip_in_view(a, arrow_along(*r.normal, normal_arrow));
       picture_.arrow(a, tip, palette_.frontier);
       label(tip, "n", palette_.frontier);
     }

@@ -41,6 +41,7 @@ class App {
   std::string save_requested; ///< a file name the person gave; the host writes it, puts what went wrong into `message`, and clears this
   std::string stop_when_text; ///< the condition as typed
   std::string stop_when_error;
+  int place_digits = 4;          ///< of positions in the scene's panel
   char gallery_search[64] = {};  ///< what is looked for in the gallery
   std::string gallery_shows;      ///< the scene the gallery has gone to
 
