@@ -4,6 +4,7 @@
 #include <imgui_internal.h>
 
 #include <cmath>
+#include <set>
 
 #include "debugger/view/explain.h"
 #include "debugger/view/plot.h"
@@ -145,6 +146,45 @@ TEST_F(Everyday, TipsOfARowOfButtonsLieBelowIt) {
     if (window->Active && (window->Flags & ImGuiWindowFlags_Tooltip) != 0) tip = window;
   ASSERT_TRUE(tip);
   EXPECT_GE(tip->Pos.y, 36);
+}
+
+/// As many digits as tell one from the other: in the panel's fields, at the axes, in sentences.
+TEST_F(Everyday, PlacesFarOutAreToldApart) {
+  SceneFile far = read_scene(app.gallery().file("2d-squares-apart"));
+  for (Body& body : far.scene.bodies) body.pose.position[0] += 1e5;
+  far.expect.reset();
+  session.open(far, "far");
+  host.frame(), host.frame();
+  EXPECT_GE(app.place_digits, 6);
+  EXPECT_EQ(short_place(session.recording(), AnyVector(Eigen::Vector2d(100000.5, 1))), "(100000.5, 1)");
+  const Projection projection(fit_world(session.meshes(), session.recording()), {0, 0, 320, 260});
+  std::set<std::string> marks;
+  std::size_t count = 0;
+  for (const PictureLabel& mark : world_picture(session.meshes(), session.recording(), session.frame(), ViewSettings{}, dark_palette, projection).scale_marks) marks.insert(mark.text), ++count;
+  EXPECT_GT(count, 3u);
+  EXPECT_EQ(marks.size(), count) << "no number twice";
+  session.open_for_a_look(read_scene(app.gallery().file("box-box-deep")), "near");
+  host.frame(), host.frame();
+  EXPECT_EQ(app.place_digits, 4);
+}
+
+TEST_F(Everyday, TipsOfArrowsAreInView) {
+  for (const char* scene : {"1d-contained", "1d-overlap", "2d-dyn4j", "2d-corner-to-corner", "cone-rim-on-box", "identical-cubes", "mpr-apart", "mpr-box-box", "sat-2d-apart", "cast-ray", "cast-receding", "cast-ghost-cured"}) {
+    app.open_gallery(scene);
+    for (const ViewRectangle view : {ViewRectangle{0, 0, 245, 165}, ViewRectangle{0, 0, 325, 445}})
+      for (const bool world : {true, false}) {
+        const Projection projection(world ? fit_world(session.meshes(), session.recording()) : fit_difference(session.meshes(), session.recording()), view);
+        for (std::size_t k = 0; k < session.count(); ++k) {
+          session.go_to(k);
+          for (const FlatItem& item : flatten((world ? world_picture : difference_picture)(session.meshes(), session.recording(), session.frame(), ViewSettings{}, dark_palette, projection), projection))
+            if (item.arrow) {
+              const Projected& tip = item.points[1];
+              const double border = std::min({tip.x - view.x, view.x + view.width - tip.x, tip.y - view.y, view.y + view.height - tip.y});
+              EXPECT_GT(border, 3) << border << " " << scene << " " << k << (world ? " world" : " difference");
+            }
+        }
+      }
+  }
 }
 
 /// MPR leaves by the portal on its ray: the first one that the shortest way out does not go through is where it is lost.

@@ -168,10 +168,11 @@ class DifferencePainter : public Painter {
         break;
       }
     if (r.isZero(0) || !(clipped <= 1)) return;
-    picture_.lines.push_back({ViewPoint::Zero(), r, palette_.text_soft, 1.6, Stroke::dashed, true, true});
+    const ViewPoint tip = tip_in_view(ViewPoint::Zero(), r);  // where the ray goes is what counts
+    picture_.lines.push_back({ViewPoint::Zero(), tip, palette_.text_soft, 1.6, Stroke::dashed, true, true});
     picture_.points.push_back({clipped * r, palette_.chosen, 8, Mark::ring, -1});
     label(clipped * r, "x", palette_.chosen, -12, 10);
-    label(r, "r", palette_.text_soft);
+    label(tip, "r", palette_.text_soft);
   }
 
   /// The difference of two segments, by the corner and the two edges of the formula.

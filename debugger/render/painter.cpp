@@ -122,7 +122,7 @@ ViewPoint Painter::tip_in_view(const ViewPoint& from, const ViewPoint& along) co
   };
   stay(p.x, q.x, view.x + margin, view.x + view.width - margin);
   stay(p.y, q.y, view.y + margin, view.y + view.height - margin);
-  return from + along * std::clamp(share, view.contains(p.x, p.y) ? 1.0 / 3 : 1.0, 1.0);
+  return from + along * std::clamp(share, view.contains(p.x, p.y) ? 0.2 : 1.0, 1.0);
 }
 
 /// A third of the view along a direction, or nothing for a direction that is none.

@@ -31,7 +31,7 @@ class Painter {
   /// A share of the view along a direction, or nothing for a direction that is none.
   ViewPoint arrow_along(const AnyVector& direction, double share = 0.3) const;
 
-  /// The tip of an arrow whose length means nothing: nearer, down to a third, where it would touch the view's border.
+  /// The tip of an arrow whose length means nothing: nearer, down to a fifth, where it would touch the view's border.
   ViewPoint tip_in_view(const ViewPoint& from, const ViewPoint& along) const;
 
   double round_step(double pixels) const;

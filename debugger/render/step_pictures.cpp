@@ -210,8 +210,6 @@ Camera fit_difference(const SceneMeshes& meshes, const Recording& recording) {
     bounds.around_origin = meshes.radius;
   }
   add_moved_difference(bounds, meshes, recording);
-  const std::vector<Body>& bodies = recording.scene.scene.bodies;
-  if (recording.settings.name == MethodName::ray_cast && bodies.size() > 1 && bodies[0].motion && bodies[1].motion) bounds.keep(to_view(AnyVector(bodies[1].motion->velocity - bodies[0].motion->velocity)));  // the ray
   std::vector<Arrow> arrows;
   for (const Event& event : recording.events) {
     if (const auto given = given_vertex(event)) bounds.keep(to_view(given->w));

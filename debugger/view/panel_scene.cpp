@@ -1,5 +1,6 @@
 // The left panel: the open scene with everything that can be edited.
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <numbers>
@@ -24,8 +25,11 @@ bool fit(const char* format, const double* values, int count, float room) {
 
 /// The most digits with which each of the numbers fits into its share of the room; up to five, of which whole numbers need no exponent.
 const char* format_that_fits(const double* values, int count, float room) {
-  for (const char* format : {"%.4g", "%.5g", "%.3g", "%.2g"})
+  for (const char* format : {"%.4g", "%.5g", "%.3g"})
     if (fit(format, values, count, room)) return format;
+  const bool ordinary = std::all_of(values, values + count, [](double x) { return x == 0 || std::abs(x) >= 0.1; });
+  for (const char* format : {"%.2f", "%.2g"})  // 1.35 beside -0.5586 keeps its hundredths
+    if ((ordinary || format[3] == 'g') && fit(format, values, count, room)) return format;
   return "%.1g";
 }
 
