@@ -112,6 +112,17 @@ TEST_F(Everyday, RingsOfConcentricBodiesAreApart) {
     }
 }
 
+/// Those of a stack that is small in the picture keep its order.
+TEST_F(Everyday, LettersOfAStackKeepTheirOrder) {
+  Camera far;
+  far.radius = 20, far.flat = true;
+  const Projection projection(far, {0, 0, 400, 300});
+  std::vector<ViewPoint> middles;
+  for (int i = 0; i < 6; ++i) middles.emplace_back(i % 2 == 0 ? 0.02 : -0.02, i, 0);
+  const auto handles = place_handles(middles, projection, 1);
+  for (std::size_t i = 0; i + 1 < handles.size(); ++i) EXPECT_GT(projection(handles[i].ring).y, projection(handles[i + 1].ring).y + handle_radius / 2) << i;
+}
+
 /// No label touches another, nor lies on the point it names, in any step of scenes where much is close together, in small views, too.
 TEST_F(Everyday, NamesDoNotTouch) {
   for (const char* scene : {"box-box-deep", "hulls-around-the-way-out", "2d-deep", "box-contact-patch"})

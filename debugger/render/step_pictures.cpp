@@ -34,16 +34,20 @@ ViewPoint row_offset(int body, int dimension, const Projection& projection) {
 std::vector<BodyHandle> place_handles(const std::vector<ViewPoint>& middles, const Projection& projection, double scale) {
   const double r = handle_radius * scale, apart = 2.5 * r;
   std::vector<Eigen::Vector2d> rings;
-  const auto nearest = [&](const Eigen::Vector2d& p) { return std::min_element(rings.begin(), rings.end(), [&](const auto& x, const auto& y) { return (x - p).squaredNorm() < (y - p).squaredNorm(); }); };
-  for (const ViewPoint& middle : middles) {
-    const Projected at = projection(middle);
-    Eigen::Vector2d p(at.x, at.y);
-    for (int tries = 0; tries < 8 && !rings.empty(); ++tries) {
-      const Eigen::Vector2d other = *nearest(p), away = p - other;
-      if (away.norm() >= apart - 1e-6) break;
-      p = other + apart * (away.norm() > 1 ? away.normalized() : Eigen::Vector2d(0, 1));
-    }
-    rings.push_back(p);
+  for (const ViewPoint& middle : middles) rings.emplace_back(projection(middle).x, projection(middle).y);
+  // Two that are too near each other give way both, all at once, so that those of a stack keep their order; of two in one place the later one goes down.
+  bool moved = true;
+  for (int round = 0; round < 200 && moved; ++round) {
+    moved = false;
+    std::vector<Eigen::Vector2d> shifts(rings.size(), Eigen::Vector2d::Zero());
+    for (std::size_t i = 0; i < rings.size(); ++i)
+      for (std::size_t k = i + 1; k < rings.size(); ++k) {
+        const Eigen::Vector2d away = rings[k] - rings[i];
+        if (away.norm() >= apart - 0.5) continue;
+        const Eigen::Vector2d push = 0.3 * (apart - away.norm()) * (away.norm() > 1 ? away.normalized() : Eigen::Vector2d(0, 1));
+        shifts[i] -= push, shifts[k] += push, moved = true;
+      }
+    for (std::size_t i = 0; i < rings.size(); ++i) rings[i] += shifts[i];
   }
   std::vector<BodyHandle> handles;
   for (std::size_t i = 0; i < middles.size(); ++i) {
