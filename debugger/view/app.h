@@ -1,6 +1,7 @@
 // The window's content: a session, what is shown of it, and the panels. Draws with ImGui into whatever host made the context.
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 #include "debugger/view/measurements.h"
@@ -69,7 +70,8 @@ class App {
   void fit_views();
   /// Where an edit has taken a body out of the views.
   void fit_what_has_left();
-  void note(std::string text) { notice = std::move(text), notice_left_ = 3; }
+  /// For as long as it takes to read it.
+  void note(std::string text) { notice = std::move(text), notice_left_ = std::max(3.f, 0.08f * static_cast<float>(notice.size())); }
   void drop_note() { notice_left_ = 0; }
 
   enum class Asking { nothing, open, save, compare, go_to };

@@ -37,7 +37,7 @@ const char* format_that_fits(const double* values, int count, float room) {
 bool numbers_in_rows(const Theme& theme, double* values, int count, float speed, const char* format) {
   bool edited = false;
   for (int i = 0; i < count; ++i) {
-    if (i > 0) ImGui::Dummy({0, ImGui::GetFrameHeight()}), ImGui::SameLine(theme.px(label_width));
+    if (i > 0) ImGui::Dummy({0, theme.text->FontSize + 2 * ImGui::GetStyle().FramePadding.y}), ImGui::SameLine(theme.px(label_width));
     ImGui::PushID(i);
     ImGui::SetNextItemWidth(-1);
     edited |= ImGui::DragScalar("##value", ImGuiDataType_Double, &values[i], speed, nullptr, nullptr, format, ImGuiSliderFlags_NoRoundToFormat);
