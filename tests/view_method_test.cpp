@@ -353,11 +353,11 @@ TEST_F(Words, StandFree) {
       for (std::size_t i = 0; i < items.size(); ++i) {
         if (items[i].kind != FlatItem::Kind::label || is_mark(items[i])) continue;
         const Projected& at = items[i].points[0];
-        const double w = 7 * static_cast<double>(items[i].text.size()), h = 17;
+        const double w = text_width(items[i].text, items[i].small), h = 17;
         for (const FlatItem& mark : items)
           if (mark.kind == FlatItem::Kind::label && is_mark(mark)) {
             const Projected& m = mark.points[0];
-            EXPECT_FALSE(m.x < at.x + w && at.x < m.x + 6 * static_cast<double>(mark.text.size()) && m.y < at.y + h && at.y < m.y + 11) << scene << " " << k << ": " << items[i].text << " over " << mark.text;
+            EXPECT_FALSE(m.x < at.x + w && at.x < m.x + text_width(mark.text, true) && m.y < at.y + h && at.y < m.y + 11) << scene << " " << k << ": " << items[i].text << " over " << mark.text;
           }
         led += i > 0 && items[i - 1].kind == FlatItem::Kind::line && items[i - 1].width == 1 && !items[i].small;
       }

@@ -108,7 +108,7 @@ class DifferencePainter : public Painter {
     const ViewPoint tip = to_view(*frame_.normal) * std::max(0.0, *frame_.depth - meshes_.radius);
     if (!(tip.norm() > 1e-6 * unit())) return;
     picture_.lines.push_back({ViewPoint::Zero(), tip, palette_.text, 3, Stroke::solid, true, true});  // not the chosen face's colour, before which it lies
-    label(tip / 2, meshes_.radius > 0 ? "depth of the cores" : "depth", palette_.text);
+    area_label(tip / 2, meshes_.radius > 0 ? "depth of the cores" : "depth", palette_.text);
   }
 
   /// Beside another program's choice the face that is the nearest, in the colour in which the panel tells what is right.
@@ -120,7 +120,7 @@ class DifferencePainter : public Painter {
     const auto chosen = frame_.chosen ? frame_.faces.find(*frame_.chosen) : frame_.faces.end();
     if (!nearest || (chosen != frame_.faces.end() && chosen->second.distance <= nearest->distance + 1e-7 * unit())) return;
     face(*nearest, palette_.support, 0.12, 3, Stroke::dashed);
-    if (const auto at = middle_of(*nearest)) label(*at, "nearest: " + name_of(*nearest), palette_.support.mixed(palette_.text), 8, 30);
+    if (const auto at = middle_of(*nearest)) area_label(*at, "nearest: " + name_of(*nearest), palette_.support.mixed(palette_.text), 8, 30);
   }
 
   /// As the step's sentence calls it.
@@ -138,7 +138,7 @@ class DifferencePainter : public Painter {
 
   void name_face(const FrameFace& f) {
     const std::string name = name_of(f);
-    if (const auto at = middle_of(f)) label(*at, name, palette_.chosen.mixed(palette_.text), -4.2 * static_cast<double>(name.size()), -12);  // lighter than the face, on which it stands if it can
+    if (const auto at = middle_of(f)) area_label(*at, name, palette_.chosen.mixed(palette_.text), -text_width(name, false) / 2, -12);  // lighter than the face, on which it stands if it can
   }
 
   /// MPR: the rays from the inner point to the portal's corners, and the one through the origin.
@@ -148,7 +148,7 @@ class DifferencePainter : public Painter {
     picture_.points.push_back({inside, palette_.text, 6, Mark::ring, -1});
     label(inside, "inside", palette_.text, 9, 12);
     const ViewPoint ahead = -inside;
-    picture_.lines.push_back({inside, ahead.isZero(0) ? inside : ViewPoint(ahead.stableNormalized() * unit() * 0.8), palette_.text_soft, 1.6, Stroke::dashed, true, true});
+    picture_.lines.push_back({inside, ahead.isZero(0) ? inside : tip_in_view(ViewPoint::Zero(), ahead.stableNormalized() * unit() * 0.8), palette_.text_soft, 1.6, Stroke::dashed, true, true});
     if (frame_.portal.empty()) return;
     for (const int v : frame_.portal)
       if (const FrameVertex* p = vertex(v)) picture_.line(inside, to_view(p->w), palette_.chosen.with_alpha(0.5), 1.3);
@@ -168,10 +168,11 @@ class DifferencePainter : public Painter {
         break;
       }
     if (r.isZero(0) || !(clipped <= 1)) return;
-    picture_.lines.push_back({ViewPoint::Zero(), r, palette_.text_soft, 1.6, Stroke::dashed, true, true});
+    const ViewPoint tip = tip_in_view(ViewPoint::Zero(), r);  // where the ray goes is what counts
+    picture_.lines.push_back({ViewPoint::Zero(), tip, palette_.text_soft, 1.6, Stroke::dashed, true, true});
     picture_.points.push_back({clipped * r, palette_.chosen, 8, Mark::ring, -1});
     label(clipped * r, "x", palette_.chosen, -12, 10);
-    label(r, "r", palette_.text_soft);
+    label(tip, "r", palette_.text_soft);
   }
 
   /// The difference of two segments, by the corner and the two edges of the formula.
@@ -267,8 +268,9 @@ class DifferencePainter : public Painter {
     if (!frame_.direction || frame_.depth) return;
     const ViewPoint d = arrow_along(*frame_.direction, direction_arrow);
     if (d.isZero(0)) return;
-    picture_.arrow(ViewPoint::Zero(), d, palette_.simplex);
-    label(d, "d", palette_.simplex);
+    const ViewPoint tip = tip_in_view(ViewPoint::Zero(), d);
+    picture_.arrow(ViewPoint::Zero(), tip, palette_.simplex);
+    label(tip, "d", palette_.simplex);
     if (settings_.support_plane && frame_.answered) support_plane(d.normalized());
   }
 

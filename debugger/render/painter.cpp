@@ -25,7 +25,7 @@ void Painter::grid() {
     const double reach = 40 * step, x = centre[0];
     picture_.line({x - reach, 0, 0}, {x + reach, 0, 0}, palette_.dropped, 1.5);
     for (int i = -40; i <= 40; ++i) picture_.line({x + i * step, -0.03 * unit(), 0}, {x + i * step, 0.03 * unit(), 0}, palette_.dropped, 1.2);
-    for (int i = -40; i <= 40; ++i) mark_number({x + i * step, -0.03 * unit(), 0}, x + i * step, -4, 8);
+    for (int i = -40; i <= 40; ++i) mark_number({x + i * step, -0.03 * unit(), 0}, x + i * step, step, -4, 8);
     return;
   }
   if (flat()) {
@@ -33,8 +33,8 @@ void Painter::grid() {
     const double left = projection_.target()[0] - 0.95 * unit(), low = projection_.target()[1] - 0.95 * unit();
     const bool x_axis_seen = std::abs(projection_.target()[1]) < unit(), y_axis_seen = std::abs(projection_.target()[0]) < unit();
     for (int i = -40; i <= 40; ++i) {
-      mark_number({centre[0] + i * step, x_axis_seen ? 0 : low, 0}, centre[0] + i * step, 3, 2);
-      if (std::abs(centre[1] + i * step) > 1e-9 * step) mark_number({y_axis_seen ? 0 : left, centre[1] + i * step, 0}, centre[1] + i * step, 3, 2);
+      mark_number({centre[0] + i * step, x_axis_seen ? 0 : low, 0}, centre[0] + i * step, step, 3, 2);
+      if (std::abs(centre[1] + i * step) > 1e-9 * step) mark_number({y_axis_seen ? 0 : left, centre[1] + i * step, 0}, centre[1] + i * step, step, 3, 2);
     }
   }
   const int count = flat() ? 40 : 10;
@@ -51,16 +51,17 @@ void Painter::grid() {
   }
 }
 
-void Painter::mark_number(const ViewPoint& at, double value, double dx, double dy) {
+void Painter::mark_number(const ViewPoint& at, double value, double step, double dx, double dy) {
   if (!settings_.labels) return;
-  char text[24];
-  std::snprintf(text, sizeof text, "%.4g", std::abs(value) < 1e-12 * unit() ? 0.0 : value);
+  char text[32];
+  const int digits = static_cast<int>(std::clamp(std::ceil(std::log10(std::max(std::abs(value), step) / step)) + 1, 4.0, 17.0));  // so that neighbours differ
+  std::snprintf(text, sizeof text, "%.*g", digits, std::abs(value) < 1e-12 * unit() ? 0.0 : value);
   // Cut off at the view's border, -7 would read as 7.
   const Projected p = projection_(at);
   const ViewRectangle& view = projection_.rectangle();
   const double width = 7 * static_cast<double>(std::strlen(text));
   if (p.x + dx < view.x + 2 || p.x + dx + width > view.x + view.width || p.y + dy < view.y || p.y + dy + 12 > view.y + view.height) return;
-  picture_.scale_marks.push_back({at, text, palette_.text_faint.with_alpha(0.75), dx, dy, true, false});
+  picture_.scale_marks.push_back({at, text, palette_.text_faint.with_alpha(0.75), dx, dy, true});
 }
 
 void Painter::mesh(const DisplayMesh& m, Colour colour, double opacity, const ViewPoint& offset) {
@@ -90,20 +91,38 @@ void Painter::mesh(const DisplayMesh& m, Colour colour, double opacity, const Vi
 }
 
 void Painter::label(const ViewPoint& at, const std::string& text, Colour colour, double dx, double dy) {
-  if (settings_.labels && !text.empty()) picture_.labels.push_back({at, text, colour, dx, dy, false, false});
+  if (settings_.labels && !text.empty()) picture_.labels.push_back({at, text, colour, dx, dy});
+}
+
+void Painter::area_label(const ViewPoint& at, const std::string& text, Colour colour, double dx, double dy) {
+  if (settings_.labels && !text.empty()) picture_.labels.push_back({at, text, colour, dx, dy, false, false, true});
 }
 
 void Painter::spare_label(const ViewPoint& at, const std::string& text, Colour colour, double dx, double dy) {
-  if (settings_.labels) picture_.labels.push_back({at, text, colour, dx, dy, false, false, true});
+  if (settings_.labels) picture_.labels.push_back({at, text, colour, dx, dy, false, false, false, true});
 }
 
 void Painter::small_label(const ViewPoint& at, const std::string& text, Colour colour, bool spare) {
-  if (settings_.labels && !text.empty()) picture_.labels.push_back({at, text, colour, 6, -8, true, false, spare});
+  if (settings_.labels && !text.empty()) picture_.labels.push_back({at, text, colour, 6, -8, true, false, false, spare});
 }
 
 const FrameVertex* Painter::vertex(int number) const {
   const auto found = frame_.vertices.find(number);
   return found == frame_.vertices.end() ? nullptr : &found->second;
+}
+
+ViewPoint Painter::tip_in_view(const ViewPoint& from, const ViewPoint& along) const {
+  const double margin = 16 * settings_.scale;
+  const ViewRectangle& view = projection_.rectangle();
+  const Projected p = projection_(from), q = projection_(ViewPoint(from + along));
+  double share = 1;
+  const auto stay = [&](double start, double end, double low, double high) {
+    if (end > high && end > start) share = std::min(share, (high - start) / (end - start));
+    if (end < low && end < start) share = std::min(share, (start - low) / (start - end));
+  };
+  stay(p.x, q.x, view.x + margin, view.x + view.width - margin);
+  stay(p.y, q.y, view.y + margin, view.y + view.height - margin);
+  return from + along * std::clamp(share, view.contains(p.x, p.y) ? 0.2 : 1.0, 1.0);
 }
 
 /// A third of the view along a direction, or nothing for a direction that is none.

@@ -31,14 +31,20 @@ class Painter {
   /// A share of the view along a direction, or nothing for a direction that is none.
   ViewPoint arrow_along(const AnyVector& direction, double share = 0.3) const;
 
+  /// The tip of an arrow whose length means nothing: nearer, down to a fifth, where it would touch the view's border.
+  ViewPoint tip_in_view(const ViewPoint& from, const ViewPoint& along) const;
+
   double round_step(double pixels) const;
   void grid();
   void mesh(const DisplayMesh& m, Colour colour, double opacity, const ViewPoint& offset);
   void label(const ViewPoint& at, const std::string& text, Colour colour, double dx = 9, double dy = -9);
+  /// Of what lies at the point: a face, an arrow.
+  void area_label(const ViewPoint& at, const std::string& text, Colour colour, double dx = 9, double dy = -9);
   /// Where there is a free place.
   void spare_label(const ViewPoint& at, const std::string& text, Colour colour, double dx, double dy);
   void small_label(const ViewPoint& at, const std::string& text, Colour colour, bool spare = false);
-  void mark_number(const ViewPoint& at, double value, double dx, double dy);
+  /// Of a scale whose numbers are `step` apart.
+  void mark_number(const ViewPoint& at, double value, double step, double dx, double dy);
   void mark_selected(const ViewPoint& at) { picture_.points.push_back({at, palette_.text, 10, Mark::ring, -1}); }
 
   const SceneMeshes& meshes_;

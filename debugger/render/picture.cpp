@@ -1,9 +1,9 @@
 #include "debugger/render/picture.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -46,35 +46,55 @@ double length_inside(const LabelBox& box, const Projected& p, const Projected& q
 double distance(const LabelBox& box, const Projected& p) { return std::hypot(std::max({box.x - p.x, 0.0, p.x - box.x - box.w}), std::max({box.y - p.y, 0.0, p.y - box.y - box.h})); }
 
 /// Finds every label the place around its point, inside the view, where it hides least of other labels, points and strong lines; the first of equals.
-/// A spare one is left out rather than lie over others.
+/// First one after the other, then each once more beside all others. A spare one is left out rather than lie over others.
 class LabelPlaces {
  public:
   LabelPlaces(const std::vector<FlatItem>& drawn, const ViewRectangle& view, double scale) : drawn_(drawn), view_(view), scale_(scale) {}
 
-  std::optional<LabelBox> take(const Projected& at, const PictureLabel& label) {
-    const double w = (label.small ? 6 : 7) * static_cast<double>(label.text.size()), h = label.small ? 13 : 17, right = std::abs(label.dx), side = label.dy;
-    const auto centred = [&](double dx, double dy) { return LabelBox{at.x + scale_ * dx, at.y + scale_ * (dy - h / 2), scale_ * w, scale_ * h}; };
-    const std::array<LabelBox, 16> boxes{centred(label.dx, side), centred(-right - w, side), centred(right, -side), centred(-right - w, -side),
-                                    centred(-w / 2, side - 14), centred(-w / 2, 14 - side), centred(right + 4, 0), centred(-right - 4 - w, 0),
-                                    centred(right + 14, side - 20), centred(right + 14, 20 - side), centred(-right - 14 - w, side - 20), centred(-right - 14 - w, 20 - side),
-                                    centred(-w / 2, side - 32), centred(-w / 2, 32 - side), centred(right, side - 36), centred(right, 36 - side)};
-    const LabelBox* best = &boxes.front();
-    double least = std::numeric_limits<double>::infinity();
-    for (const LabelBox& box : boxes)
-      if (const double bad = hides(box) + (label.spare ? distance(box, at) / scale_ : misleads(box, at)); bad < least) least = bad, best = &box;
-    if (label.spare && hides(*best) > 25 * scale_) return std::nullopt;
-    taken_.push_back(*best);
-    return *best;
+  std::vector<std::optional<LabelBox>> take(const std::vector<std::pair<Projected, const PictureLabel*>>& labels) {
+    taken_.assign(labels.size(), std::nullopt);
+    constexpr int rounds = 3;
+    for (int round = 0; round < rounds; ++round)
+      for (std::size_t i = 0; i < labels.size(); ++i) {
+        taken_[i].reset();
+        taken_[i] = best(labels[i].first, *labels[i].second);
+      }
+    return taken_;
   }
 
  private:
+  static constexpr double apart = 3;  ///< pixels between two labels
+
+  std::optional<LabelBox> best(const Projected& at, const PictureLabel& label) const {
+    std::optional<LabelBox> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const LabelBox& box : places_around(at, label))
+      if (const double bad = hides(box) + (label.spare ? distance(box, at) / scale_ : misleads(box, at)); bad < least) least = bad, best = box;
+    if (label.spare && best && hides(*best) > 25 * scale_) return std::nullopt;
+    return best;
+  }
+
+  /// Beside the point in four corners, above, below, left and right; then farther off, where a line leads to it.
+  std::vector<LabelBox> places_around(const Projected& at, const PictureLabel& label) const {
+    const double w = text_width(label.text, label.small), h = label.small ? 13 : 17, right = std::abs(label.dx), side = label.dy, beyond = std::abs(side) + 14;
+    const auto centred = [&](double dx, double dy) { return LabelBox{at.x + scale_ * dx, at.y + scale_ * (dy - h / 2), scale_ * w, scale_ * h}; };
+    std::vector<LabelBox> boxes{centred(label.dx, side), centred(-right - w, side), centred(right, -side), centred(-right - w, -side),
+                                centred(-w / 2, -beyond), centred(-w / 2, beyond), centred(right + 4, 0), centred(-right - 4 - w, 0)};
+    for (const double away : {20.0, 36.0, 54.0})
+      for (const double up : {-1.0, 1.0, -0.4, 0.4})
+        for (const double way : {1.0, -1.0, 0.0})
+          if (way != 0 || std::abs(up) == 1) boxes.push_back(centred(way > 0 ? right - 9 + away * 0.7 : way < 0 ? 9 - right - away * 0.7 - w : -w / 2, up * away + (up > 0 ? 4 : -4)));
+    return boxes;
+  }
+
   static double weight(const FlatItem& line) { return line.width >= 2 ? 1 : 0.5 * line.colour.a / 255; }
 
   /// In pixels of a strong line: a weaker one counts half at most, a point as many as it is wide and 30, a label or the border of the view far more.
   double hides(const LabelBox& box) const {
     double sum = 0;
     if (box.x < view_.x || box.x + box.w > view_.x + view_.width || box.y < view_.y || box.y + box.h > view_.y + view_.height) sum += 1000;
-    for (const LabelBox& other : taken_) sum += box.meets(other) ? 200 : 0;
+    const double d = scale_ * apart;
+    for (const std::optional<LabelBox>& other : taken_) sum += other && box.meets({other->x - d, other->y, other->w + 2 * d, other->h}) ? 200 : 0;
     for (const FlatItem& item : drawn_) {
       const Projected& p = item.points.front();
       const double r = scale_ * item.width;
@@ -98,7 +118,7 @@ class LabelPlaces {
   const std::vector<FlatItem>& drawn_;
   const ViewRectangle& view_;
   const double scale_;
-  std::vector<LabelBox> taken_;
+  std::vector<std::optional<LabelBox>> taken_;
 };
 
 FlatItem flat_point(const PicturePoint& point, const Projection& project) {
@@ -118,12 +138,12 @@ std::optional<FlatItem> leader(const LabelBox& box, const Projected& at, const P
     const bool is_own = std::hypot(item.points[0].x - at.x, item.points[0].y - at.y) < 1;
     has_dot |= is_own, nearer_dot |= !is_own && distance(box, item.points[0]) < own;
   }
-  if (!has_dot || own < (nearer_dot ? 10 : 22) * scale) return std::nullopt;
+  if ((!has_dot && !label.area) || own < (nearer_dot ? 10 : 22) * scale) return std::nullopt;
   const Projected near{std::clamp(at.x, box.x, box.x + box.w), std::clamp(at.y, box.y, box.y + box.h), at.depth};
   FlatItem line;
   line.kind = FlatItem::Kind::line;
   line.points = {near, at};
-  line.colour = label.colour.with_alpha(0.7), line.width = 1;
+  line.colour = label.colour.with_alpha(0.9), line.width = 1;
   return line;
 }
 
@@ -131,22 +151,20 @@ std::vector<FlatItem> placed_labels(const Picture& picture, const Projection& pr
   for (const PicturePoint& point : picture.kept_free) drawn.push_back(flat_point(point, project));
   ViewRectangle view = project.rectangle();
   view.y += picture.covered, view.height -= picture.covered;
-  LabelPlaces places(drawn, view, scale);
   std::vector<FlatItem> out;
-  std::vector<const PictureLabel*> in_turn;
-  for (const PictureLabel& label : picture.labels) in_turn.push_back(&label);
-  std::stable_partition(in_turn.begin(), in_turn.end(), [](const PictureLabel* label) { return !label->spare; });
-  for (const PictureLabel* next : in_turn) {
-    const PictureLabel& label = *next;
-    const Projected at = project(label.at);
-    const std::optional<LabelBox> box = places.take(at, label);
-    if (!box) continue;
-    taken.push_back(*box);
-    if (auto line = leader(*box, at, label, drawn, scale)) out.push_back(std::move(*line));
+  std::vector<std::pair<Projected, const PictureLabel*>> in_turn;
+  for (const PictureLabel& label : picture.labels) in_turn.emplace_back(project(label.at), &label);
+  std::stable_partition(in_turn.begin(), in_turn.end(), [](const auto& next) { return !next.second->spare; });
+  const auto boxes = LabelPlaces(drawn, view, scale).take(in_turn);
+  for (std::size_t i = 0; i < in_turn.size(); ++i) {
+    const auto& [at, label] = in_turn[i];
+    if (!boxes[i]) continue;
+    taken.push_back(*boxes[i]);
+    if (auto line = leader(*boxes[i], at, *label, drawn, scale)) out.push_back(std::move(*line));
     FlatItem item;
     item.kind = FlatItem::Kind::label;
-    item.points = {{box->x, box->y, at.depth}};
-    item.colour = label.colour, item.text = label.text, item.small = label.small;
+    item.points = {{boxes[i]->x, boxes[i]->y, at.depth}};
+    item.colour = label->colour, item.text = label->text, item.small = label->small;
     out.push_back(std::move(item));
   }
   return out;
@@ -158,7 +176,7 @@ std::vector<FlatItem> scale_marks(const Picture& picture, const Projection& proj
   for (const PictureLabel& mark : picture.scale_marks) {
     Projected at = project(mark.at);
     at.x += scale * mark.dx, at.y += scale * mark.dy;
-    const LabelBox box{at.x, at.y, 6 * scale * static_cast<double>(mark.text.size()), 11 * scale};
+    const LabelBox box{at.x, at.y, scale * text_width(mark.text, true), 11 * scale};
     if (std::any_of(taken.begin(), taken.end(), [&](const LabelBox& other) { return box.meets(other); })) continue;
     FlatItem item;
     item.kind = FlatItem::Kind::label;
@@ -170,6 +188,14 @@ std::vector<FlatItem> scale_marks(const Picture& picture, const Projection& proj
 }
 
 }  // namespace
+
+/// Of the letters' three widths in Inter, of 13 and of 11 pixels.
+double text_width(const std::string& text, bool small) {
+  double sum = 0;
+  for (const char c : text)
+    if ((c & 0xC0) != 0x80) sum += std::strchr("iljI.,:;'|!", c) ? 3.4 : std::strchr("tfr()[] -1", c) ? 4.6 : std::strchr("mwMW", c) ? 10.5 : 7.6;
+  return (small ? 0.82 : 1) * sum;
+}
 
 std::vector<FlatItem> flatten(const Picture& picture, const Projection& project, double scale) {
   std::vector<std::pair<double, FlatItem>> sorted;

@@ -39,6 +39,7 @@ struct PictureLabel {
   double dx = 9, dy = -9;  ///< pixels from the point
   bool small = false;
   bool dot = false;  ///< names a dot, and may be joined by another name of it
+  bool area = false;  ///< names no dot, but what lies at the point: a line leads there from a place farther off
   bool spare = false;  ///< names no dot: gets its place after the others, or none where there is no free one
 };
 
@@ -72,6 +73,9 @@ struct FlatItem {
   bool small = false;  ///< of a label
   int vertex = -1;
 };
+
+/// About as wide as a text is drawn, before it is scaled, in pixels.
+double text_width(const std::string& text, bool small);
 
 /// Projects and sorts back to front (faces by their middle, lines just before faces at the same depth; points and labels last).
 /// Labels go to where they hide least of one another, of points and of strong lines. `scale`: of text and marks, in pixels.

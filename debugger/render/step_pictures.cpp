@@ -31,6 +31,40 @@ ViewPoint row_offset(int body, int dimension, const Projection& projection) {
   return {0, (body % 2 == 0 ? 0.3 : -0.3) * half_view(projection), 0};
 }
 
+std::vector<BodyHandle> place_handles(const std::vector<ViewPoint>& middles, const Projection& projection, double scale) {
+  const double r = handle_radius * scale, apart = 2.5 * r;
+  std::vector<Eigen::Vector2d> rings;
+  for (const ViewPoint& middle : middles) rings.emplace_back(projection(middle).x, projection(middle).y);
+  // Two that are too near each other give way both, all at once, so that those of a stack keep their order; of two in one place the later one goes down.
+  bool moved = true;
+  for (int round = 0; round < 200 && moved; ++round) {
+    moved = false;
+    std::vector<Eigen::Vector2d> shifts(rings.size(), Eigen::Vector2d::Zero());
+    for (std::size_t i = 0; i < rings.size(); ++i)
+      for (std::size_t k = i + 1; k < rings.size(); ++k) {
+        const Eigen::Vector2d away = rings[k] - rings[i];
+        if (away.norm() >= apart - 0.5) continue;
+        const Eigen::Vector2d push = 0.3 * (apart - away.norm()) * (away.norm() > 1 ? away.normalized() : Eigen::Vector2d(0, 1));
+        shifts[i] -= push, shifts[k] += push, moved = true;
+      }
+    for (std::size_t i = 0; i < rings.size(); ++i) rings[i] += shifts[i];
+  }
+  std::vector<BodyHandle> handles;
+  for (std::size_t i = 0; i < middles.size(); ++i) {
+    const Projected at = projection(middles[i]);
+    const ViewPoint ring = middles[i] + projection.move(rings[i][0] - at.x, rings[i][1] - at.y);
+    Eigen::Vector2d beside(1.9 * r, -1.5 * r);
+    for (const Eigen::Vector2d& corner : {Eigen::Vector2d(1.9, -1.5), Eigen::Vector2d(-1.9, -1.5), Eigen::Vector2d(1.9, 1.5), Eigen::Vector2d(-1.9, 1.5)}) {
+      const Eigen::Vector2d disc = rings[i] + r * corner;
+      if (std::any_of(rings.begin(), rings.end(), [&](const auto& other) { return (other - disc).norm() < 1.5 * r; })) continue;
+      beside = r * corner;
+      break;
+    }
+    handles.push_back({ring, ring + projection.move(beside[0], beside[1])});
+  }
+  return handles;
+}
+
 std::string facet_name(int dimension) { return dimension == 1 ? "endpoint" : dimension == 2 ? "edge" : "face"; }
 
 char vertex_letter(std::ptrdiff_t place) { return static_cast<char>('A' + place); }
@@ -141,8 +175,27 @@ void add_moved_difference(Bounds& bounds, const SceneMeshes& meshes, const Recor
 
 }  // namespace
 
+namespace {
+
+/// Of bodies that move, at the beginning and of a cast after every response: as long as they are fast.
+void add_velocities(std::vector<Arrow>& arrows, const Recording& recording) {
+  const std::vector<Body>& bodies = recording.scene.scene.bodies;
+  double fastest = 0;
+  for (const Body& body : bodies) fastest = std::max(fastest, body.motion ? body.motion->velocity.norm() : 0);
+  if (!(fastest > 0)) return;
+  const auto add = [&](const AnyVector& from, const AnyVector& velocity) { add_arrow(arrows, to_view(from), velocity, velocity_arrow * std::min(1.0, velocity.norm() / fastest)); };
+  for (const Body& body : bodies)
+    if (body.motion) add(body.pose.position, body.motion->velocity);
+  for (const Event& event : recording.events)
+    if (const auto* state = std::get_if<recorded::State>(&event); state && recording.scene.scene.query == Query::cast)
+      for (const recorded::BodyState& body : state->bodies) add(body.position, body.velocity);
+}
+
+}  // namespace
+
 Camera fit_world(const SceneMeshes& meshes, const Recording& recording) {
   std::vector<Arrow> arrows;
+  add_velocities(arrows, recording);
   const bool still = recording.scene.scene.query != Query::simulate;  // of a simulation thousands are asked, everywhere: the bodies would become small for them
   for (const Event& event : recording.events)
     if (const auto* e = std::get_if<recorded::SupportQueried>(&event); e && still) add_arrow(arrows, to_view(e->a), e->direction, support_arrow), add_arrow(arrows, to_view(e->b), e->direction, -support_arrow);

@@ -22,6 +22,7 @@ struct ViewSettings {
   bool regions = true;        ///< the Voronoi region of the part that is kept
   bool bounds = true;         ///< rings about the origin, as far out as the bounds
   bool newest_first = true;   ///< A is the newest vertex of the simplex; else the oldest
+  double scale = 1;           ///< of marks and letters, in pixels
   bool body_letters = false;  ///< drawn in the world; the window has handles with them instead
   std::optional<int> selected;  ///< a vertex, marked in both views
   std::optional<int> pointed;   ///< a vertex under the pointer, lit in both views
@@ -41,8 +42,15 @@ SceneMeshes scene_meshes(const Scene& scene, const Settings& settings);
 std::string body_letter(int body);
 /// The middle of what is seen of a body: its pose's position may lie far from it.
 ViewPoint middle(const DisplayMesh& mesh);
+/// A ring by which a body is moved and the small disc that turns it.
+struct BodyHandle {
+  ViewPoint ring, disc;
+};
+inline constexpr double handle_radius = 9;  ///< pixels, before they are scaled
+/// One a body, by their middles: off one another where those lie together in the picture, the discs off the rings.
+std::vector<BodyHandle> place_handles(const std::vector<ViewPoint>& middles, const Projection& projection, double scale);
 /// The arrow of a direction in the difference, and of one at a body, as shares of half the view's shorter side.
-inline constexpr double direction_arrow = 0.42, support_arrow = 0.3, normal_arrow = 0.4;
+inline constexpr double direction_arrow = 0.42, support_arrow = 0.3, normal_arrow = 0.4, velocity_arrow = 0.35;
 /// Half of the view's shorter side, in lengths of the scene.
 double half_view(const Projection& projection);
 /// Intervals lie over one another: in 1D each is drawn a little off the line.

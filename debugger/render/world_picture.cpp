@@ -144,7 +144,7 @@ class WorldPainter : public Painter {
     for (std::size_t i = 0; i < frame_.places.size(); ++i) {
       const ViewPoint v = to_view(frame_.places[i].velocity);
       if (!(v.norm() > least_share * fastest)) continue;
-      const ViewPoint from = to_view(frame_.places[i].position) + one_d_offset(static_cast<int>(i)), tip = from + v * (0.35 * unit() / fastest);
+      const ViewPoint from = to_view(frame_.places[i].position) + one_d_offset(static_cast<int>(i)), tip = tip_in_view(from, v * (velocity_arrow * unit() / fastest));
       picture_.arrow(from, tip, palette_.support);
       if (named(static_cast<int>(i))) label(tip, "velocity" + of_body(i) + " " + three_digits(v.norm()), palette_.support);
     }
@@ -156,8 +156,9 @@ class WorldPainter : public Painter {
     const ViewPoint at = to_view(e.point), along = to_view(e.impulse);
     picture_.points.push_back({at, palette_.chosen, 5, Mark::square, -1});
     if (along.isZero(0)) return;
-    picture_.arrow(at, at + along.stableNormalized() * unit() * 0.3, palette_.chosen);
-    label(at + along.stableNormalized() * unit() * 0.3, "impulse", palette_.chosen);
+    const ViewPoint tip = tip_in_view(at, along.stableNormalized() * unit() * 0.3);
+    picture_.arrow(at, tip, palette_.chosen);
+    label(tip, "impulse", palette_.chosen);
   }
 
   // --- The world ------------------------------------------------------------------------------------------------
@@ -179,10 +180,11 @@ class WorldPainter : public Painter {
       if (!frame_.direction || !frame_.answered || frame_.depth) continue;  // the next direction is not theirs
       const ViewPoint d = arrow_along(*frame_.direction, support_arrow);
       if (d.isZero(0)) continue;
-      picture_.arrow(a, a + d, palette_.simplex);
-      picture_.arrow(b, b - d, palette_.simplex);
-      label(a + d, "d", palette_.simplex);
-      label(b - d, "-d", palette_.simplex);
+      const ViewPoint with_d = tip_in_view(a, d), against_d = tip_in_view(b, -d);
+      picture_.arrow(a, with_d, palette_.simplex);
+      picture_.arrow(b, against_d, palette_.simplex);
+      label(with_d, "d", palette_.simplex);
+      label(against_d, "-d", palette_.simplex);
     }
   }
 
@@ -207,15 +209,16 @@ class WorldPainter : public Painter {
 
   /// Where the window draws the rings and letters that a body is held by: labels keep off them. Elsewhere the letters alone.
   void handles() {
-    for (std::size_t i = 0; i < meshes_.bodies.size(); ++i) {
-      const ViewPoint at = (moves() && frame_.step > 0 ? to_view(frame_.places[i].position) : middle(meshes_.bodies[i])) + one_d_offset(static_cast<int>(i));
+    std::vector<ViewPoint> middles;
+    for (std::size_t i = 0; i < meshes_.bodies.size(); ++i) middles.push_back((moves() && frame_.step > 0 ? to_view(frame_.places[i].position) : middle(meshes_.bodies[i])) + one_d_offset(static_cast<int>(i)));
+    const std::vector<BodyHandle> handles = place_handles(middles, projection_, settings_.scale);
+    for (std::size_t i = 0; i < middles.size(); ++i) {
       if (settings_.body_letters) {
-        label(at, body_letter(static_cast<int>(i)), body_colour(static_cast<int>(i)).mixed(palette_.text), -4, 0);
+        label(middles[i], body_letter(static_cast<int>(i)), body_colour(static_cast<int>(i)).mixed(palette_.text), -4, 0);
         continue;
       }
-      picture_.kept_free.push_back({at, palette_.text, 11, Mark::ring, -1});
-      const double pixel = 1 / projection_.pixels_per_length();
-      if (meshes_.dimension > 1) picture_.kept_free.push_back({at + (17 * projection_.right() + 13.5 * projection_.up()) * pixel, palette_.text, 5, Mark::disc, -1});
+      picture_.kept_free.push_back({handles[i].ring, palette_.text, handle_radius + 2, Mark::ring, -1});
+      if (meshes_.dimension > 1) picture_.kept_free.push_back({handles[i].disc, palette_.text, 5, Mark::disc, -1});
     }
   }
 
@@ -234,7 +237,7 @@ class WorldPainter : public Painter {
     label(a, "witness a", palette_.body_a, 9, beside);
     label(b, "witness b", palette_.body_b, 9, -beside);
     if (r.normal) {
-      const ViewPoint tip = a + arrow_along(*r.normal, normal_arrow);
+      const ViewPoint tip = tip_in_view(a, arrow_along(*r.normal, normal_arrow));
       picture_.arrow(a, tip, palette_.frontier);
       label(tip, "n", palette_.frontier);
     }
@@ -243,7 +246,7 @@ class WorldPainter : public Painter {
       const ContactPoint& c = (*r.contacts)[i];
       picture_.points.push_back({to_view(c.point_a), palette_.chosen, 5, Mark::square, -1});
       picture_.lines.push_back({to_view(c.point_a), to_view(c.point_b), palette_.chosen, 2, Stroke::solid, false, true});
-      if (r.contacts->size() > 1 && i < numbered_contacts) small_label(to_view(c.point_a), std::to_string(i + 1), palette_.chosen, true);
+      if (r.contacts->size() > 1 && i < numbered_contacts) spare_label(to_view(c.point_a), std::to_string(i + 1), palette_.chosen.mixed(palette_.text), 8, -10);
     }
   }
 };

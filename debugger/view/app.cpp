@@ -90,6 +90,7 @@ void App::frame() {
   ImGui::PopStyleVar();
   panels({0, 0, size.x, size.y});
   ImGui::End();
+  find_bar();
   key_sheet();
   dialogs();
 }
@@ -260,13 +261,13 @@ void App::top_bar(const Area& area) {
   ImGui::PushStyleColor(ImGuiCol_Button, vec(theme.palette.panel));
   const auto button = [&](const char* name, const char* tip) {
     const bool pressed = ImGui::Button(name);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip);
+    tip_beside_row(theme, tip);
     ImGui::SameLine(0, theme.px(2));
     return pressed;
   };
   if (button("Open", "Open a scene or a recording (Ctrl-O)")) ask(Asking::open);
   if (button("Save", "Save the scene, the recording, a picture or the replay (Ctrl-S)")) ask(Asking::save);
-  if (button("Find", "Find a step (Ctrl-F)")) ask(Asking::find);
+  if (button("Find", "Find a step (Ctrl-F)")) open_find_bar();
   if (button("Measure", "Speed against accuracy, stability where methods fail (X)")) show_lab = !show_lab;
   if (button("Explain", "Big text, for a hall (E)")) lecture = !lecture;
   if (button(theme.dark ? "Light" : "Dark", "The other colours (T)")) preferences.dark = !preferences.dark;
@@ -349,7 +350,7 @@ void App::icon_rail(const Area& area) {
     // A click beside an open popup closes it, and no button hears of it.
     const bool over = ImGui::IsPopupOpen(popup_of(gallery ? LeftTab::scene : LeftTab::gallery)) && ImGui::IsMouseClicked(ImGuiMouseButton_Left) && ImGui::IsMouseHoveringRect(at, {at.x + size.x, at.y + size.y}, false);
     if (ImGui::Button(name, size) || over) opens = tab;
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip);
+    if (ImGui::IsItemHovered()) ImGui::SetNextWindowPos({at.x + size.x + theme.px(7), at.y}), ImGui::SetTooltip("%s", tip);  // off the other one
     ImDrawList* draw = ImGui::GetWindowDrawList();
     const ImU32 colour = packed(theme.palette.text);
     const auto px = [&](float x, float y) { return ImVec2{at.x + theme.px(x), at.y + theme.px(y)}; };

@@ -1,6 +1,7 @@
 // The window's content: a session, what is shown of it, and the panels. Draws with ImGui into whatever host made the context.
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 #include "debugger/view/measurements.h"
@@ -41,6 +42,7 @@ class App {
   std::string save_requested; ///< a file name the person gave; the host writes it, puts what went wrong into `message`, and clears this
   std::string stop_when_text; ///< the condition as typed
   std::string stop_when_error;
+  int place_digits = 4;          ///< of positions in the scene's panel
   char gallery_search[64] = {};  ///< what is looked for in the gallery
   std::string gallery_shows;      ///< the scene the gallery has gone to
 
@@ -68,11 +70,17 @@ class App {
   void fit_views();
   /// Where an edit has taken a body out of the views.
   void fit_what_has_left();
-  void note(std::string text) { notice = std::move(text), notice_left_ = 3; }
+  /// For as long as it takes to read it.
+  void note(std::string text) { notice = std::move(text), notice_left_ = std::max(3.f, 0.08f * static_cast<float>(notice.size())); }
   void drop_note() { notice_left_ = 0; }
 
-  enum class Asking { nothing, open, save, compare, find, go_to };
+  enum class Asking { nothing, open, save, compare, go_to };
   void ask(Asking what) { asking_ = what; }
+  /// A bar above the views, beside which the rest of the window can be used.
+  void open_find_bar();
+  bool finding() const { return find_.open; }
+  /// Whether the scene's description stands on the left.
+  bool shows_scene_panel() const { return wide_ && left_tab == LeftTab::scene; }
 
  private:
   void keys();
@@ -95,8 +103,10 @@ class App {
   void file_list();
   void file_entered();
   void file_saved();
-  void find_dialog();
-  void find_again(bool backwards);
+  void find_bar();
+  void find_keys();
+  void find_while_typing();
+  void find_next(bool backwards);
   void go_to_dialog();
 
   Gallery gallery_;
@@ -105,9 +115,14 @@ class App {
   std::optional<LeftTab> rail_opens_;  ///< with the next frame
   bool wide_ = true, rail_open_ = false;  ///< whether the left panel has room; where it has none, whether what the rail opens is open
   Asking asking_ = Asking::nothing, asked_ = Asking::nothing;
-  std::string find_error_;
-  std::optional<std::size_t> found_;  ///< by the dialog's last search
-  char file_buffer_[1024] = {}, find_buffer_[256] = {};
+  struct FindBar {
+    bool open = false, wants_focus = false;
+    char text[256] = {};
+    std::size_t from = 0;              ///< where the text that is being typed is looked for from
+    std::optional<std::size_t> found;  ///< by the last search
+    std::string error;
+  } find_;
+  char file_buffer_[1024] = {};
   std::string file_error_;                ///< what became of the name in the dialog
   std::string replacing_;                 ///< a file that is there; saved over when it is asked for once more
   bool saving_ = false;                   ///< the host has been asked to
@@ -154,6 +169,8 @@ std::string shortened(const ImFont* font, const std::string& text, float room);
 void wrapped(const std::string& text, Colour colour);
 /// Of sentences, broken into lines.
 void tooltip(const Theme& theme, const std::string& text);
+/// Of the last item of a row of buttons, where it is pointed at: below the row, in the window's lower half above it, so that the others stay in sight.
+void tip_beside_row(const Theme& theme, const char* text);
 /// A label on the left and a number in the monospaced font, right-aligned, below where there is no room beside.
 void number_row(const Theme& theme, const char* label, const std::string& value, Colour colour);
 /// A click goes to `source`, the step that produced the number. `exact`: with all digits, for the tooltip and a right click, which copies it.

@@ -44,5 +44,9 @@ std::string short_number(double x);
 std::string short_vector(const AnyVector& v, int digits = 4);
 /// As many as it takes of two points for their difference to be right to a hundredth, at least 4.
 int digits_that_tell(const AnyVector& p, const AnyVector& q);
+/// As many as it takes to tell the bodies' places apart, at least 4: far out more.
+int digits_of_places(const Scene& scene);
+/// A point of the world, with as many.
+std::string short_place(const Recording& recording, const AnyVector& point);
 
 }  // namespace gjkdbg

@@ -49,11 +49,11 @@ Explanation ExplainMethods::operator()(const recorded::AxisTested& e) const {
 
 Explanation ExplainMethods::operator()(const recorded::PointsProjected& e) const {
   if (frame.stage == Frame::Stage::projections) {
-    const std::string points = "b = " + short_vector(e.b) + " is the point of " + b() + " nearest to x, and a = " + short_vector(e.a) + " that of " + a() + " nearest to b. ";
+    const std::string points = "b = " + short_place(recording, e.b) + " is the point of " + b() + " nearest to x, and a = " + short_place(recording, e.a) + " that of " + a() + " nearest to b. ";
     if (e.closest.isZero(0)) return {"A point of both bodies", points + "They are the same: the cores overlap."};
     return {"Nearest points in turn", points + "They are " + short_number(e.closest.norm()) + " apart" + (farther(e) ? ", more than before: the step went too far, and part of it is taken back." : ".")};
   }
-  const std::string points = "a = " + short_vector(e.a) + ", b = " + short_vector(e.b) + ", " + short_number(e.closest.norm()) + " apart. ";
+  const std::string points = "a = " + short_place(recording, e.a) + ", b = " + short_place(recording, e.b) + ", " + short_number(e.closest.norm()) + " apart. ";
   const std::string why = "No axis tells how far the bodies are apart: nearest to each other are " + std::string(recording.scene.scene.dimension == 2 && boxes() ? "" : "a corner and an edge, or ") + "two corners. ";
   if (boxes()) return {"The nearest points, at a corner", why + "Of the " + facet() + "s of " + difference() + " that face O the one nearest to it has them: " + points + "A plane across them has all of " + difference() + " behind it, so nothing is nearer."};
   return {"Points projected in turn", why + "So a point looks for the nearest of the other body, and that for its nearest: " + points + "Two points that are each the nearest to the other are the closest of all."};
@@ -88,11 +88,11 @@ Explanation ExplainMethods::operator()(const recorded::ClosedFormBegan& e) const
 }
 
 Explanation ExplainMethods::operator()(const recorded::ProjectionsBegan& e) const {
-  return {"Projections begin", "For shapes like these a formula gives the point nearest to another. From x = " + short_vector(e.point) + " inside " + a() + " to the nearest of " + b() + ", from there to the nearest of " + a() + ", and so on: two points that are each the nearest to the other are the closest of all."};
+  return {"Projections begin", "For shapes like these a formula gives the point nearest to another. From x = " + short_place(recording, e.point) + " inside " + a() + " to the nearest of " + b() + ", from there to the nearest of " + a() + ", and so on: two points that are each the nearest to the other are the closest of all."};
 }
 
 Explanation ExplainMethods::operator()(const recorded::PointPredicted& e) const {
-  return {"Newton's step", "How the two points turn and slide when the first one moves is known. So it goes straight to where they should stand still: x = " + short_vector(e.point) + "."};
+  return {"Newton's step", "How the two points turn and slide when the first one moves is known. So it goes straight to where they should stand still: x = " + short_place(recording, e.point) + "."};
 }
 
 Explanation ExplainMethods::operator()(const recorded::ProjectionsEnded& e) const {

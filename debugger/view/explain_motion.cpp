@@ -55,12 +55,12 @@ Explanation ExplainMotion::operator()(const recorded::State& e) const {
 }
 
 Explanation ExplainMotion::operator()(const recorded::ContactFound& e) const {
-  return {"A contact", body(e.pair[0]) + " and " + body(e.pair[1]) + " touch at " + short_vector(e.point) + ", " + short_number(e.depth) + " deep along " + short_vector(e.normal) + "."};
+  return {"A contact", body(e.pair[0]) + " and " + body(e.pair[1]) + " touch at " + short_place(recording, e.point) + ", " + short_number(e.depth) + " deep along " + short_vector(e.normal) + "."};
 }
 
 Explanation ExplainMotion::operator()(const recorded::ImpulseApplied& e) const {
   if (recording.scene.scene.query == Query::cast) return responds(e);
-  std::string text = body(e.pair[1]) + " gets the impulse " + short_vector(e.impulse) + " at " + short_vector(e.point) + ", " + body(e.pair[0]) + " the opposite.";
+  std::string text = body(e.pair[1]) + " gets the impulse " + short_vector(e.impulse) + " at " + short_place(recording, e.point) + ", " + body(e.pair[0]) + " the opposite.";
   if (e.velocities_before.size() == 2 && e.velocities_after.size() == 2)
     text += " Velocities: " + short_vector(e.velocities_before[0]) + " to " + short_vector(e.velocities_after[0]) + " and " + short_vector(e.velocities_before[1]) + " to " + short_vector(e.velocities_after[1]) + ".";
   return {"An impulse", text};
@@ -68,7 +68,7 @@ Explanation ExplainMotion::operator()(const recorded::ImpulseApplied& e) const {
 
 /// A cast's bodies have no masses: those that move get other velocities.
 Explanation ExplainMotion::responds(const recorded::ImpulseApplied& e) const {
-  std::string text = body(e.pair[0]) + " and " + body(e.pair[1]) + " touch at " + short_vector(e.point) + ".";
+  std::string text = body(e.pair[0]) + " and " + body(e.pair[1]) + " touch at " + short_place(recording, e.point) + ".";
   for (std::size_t k = 0; k < std::min(e.velocities_before.size(), e.velocities_after.size()) && k < 2; ++k)
     if (e.velocities_before[k] != e.velocities_after[k])
       text += " The velocity of " + body(e.pair[k]) + " goes from " + short_vector(e.velocities_before[k]) + " to " + short_vector(e.velocities_after[k]) + ".";

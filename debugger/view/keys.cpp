@@ -29,7 +29,7 @@ void App::control_keys(bool shift) {
   if (key_pressed(Key::y) && session.can_redo()) session.redo();
   if (key_pressed(Key::o)) ask(Asking::open);
   if (key_pressed(Key::s)) ask(Asking::save);
-  if (key_pressed(Key::f)) ask(Asking::find);
+  if (key_pressed(Key::f)) open_find_bar();
   if (key_pressed(Key::g)) ask(Asking::go_to);
   if (key_pressed(Key::q)) quit = true;
   if (key_pressed(Key::c)) {
@@ -58,6 +58,11 @@ void App::keys() {
     return;
   }
   if (rail_open_ && key_pressed(Key::escape)) return ImGui::ClosePopupToLevel(0, true);
+  if (find_.open && key_pressed(Key::escape) && !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel)) {
+    find_.open = false;
+    return;
+  }
+  find_keys();
   step_keys(shift_held(), control_held());
   if (control_held()) return control_keys(shift_held());
   if (key_pressed(Key::home)) session.playing = false, session.go_to(0);
@@ -69,20 +74,11 @@ void App::keys() {
   if (key_pressed(Key::m) && !session.add_bookmark()) note("all nine bookmarks are taken");
   if (key_pressed(Key::left_bracket)) session.loop = true, session.loop_from = session.step();
   if (key_pressed(Key::right_bracket)) session.loop = true, session.loop_to = session.step();
-  if (key_pressed(Key::f3)) find_again(shift_held());
   if (key_pressed(Key::page_down) && !show_lab) open_beside(1);
   if (key_pressed(Key::page_up) && !show_lab) open_beside(-1);
   for (int i = 1; i <= 9; ++i)
     if (key_pressed(static_cast<Key>(static_cast<int>(Key::digit_1) + i - 1)) && session.bookmarks.contains(i)) session.go_to(session.bookmarks[i]);
   view_keys();
-}
-
-void App::find_again(bool backwards) {
-  try {
-    if (const auto step = find_text(session, find_buffer_, session.step(), backwards)) session.go_to(*step);
-  } catch (const Error& e) {
-    message = e.message();  // a condition that is none, left over from the dialog
-  }
 }
 
 void App::view_keys() {
@@ -111,7 +107,7 @@ void App::key_sheet() {
   if (!show_keys) return;
   static const std::pair<const char*, const char*> rows[] = {
       {"Right  Left   or   .  ,", "on, back an event"}, {"Shift with them", "an iteration"}, {"Ctrl with them", "a phase"}, {"Home  End", "first, last step"},
-      {"Space", "play, pause"}, {"[  ]", "loop from here, to here"}, {"B", "breakpoint here"}, {"M, 1 to 9", "bookmark, go to it"}, {"Ctrl-F, F3, Shift-F3", "find, next, previous"},
+      {"Space", "play, pause"}, {"[  ]", "loop from here, to here"}, {"B", "breakpoint here"}, {"M, 1 to 9", "bookmark, go to it"}, {"Ctrl-F, F3, Shift-F3", "find, next, the one before"},
       {"Ctrl-G", "go to a step"}, {"F, double click", "fit the views"}, {"Shift-F", "the views as at first"}, {"1 2 3 on the pad", "front, right, top"}, {"V", "side by side, stacked, one view"}, {"L", "link the cameras"},
       {"G", "gallery or scene"}, {"Page Down  Page Up", "next scene, the one before"}, {"T", "dark or light"}, {"E", "explain in big letters"}, {"X", "charts and atlas"}, {"Ctrl-O  Ctrl-S", "open, save"}, {"Ctrl-C, Ctrl-Shift-C", "copy the scene: JSON, C++"},
       {"Ctrl-Z  Ctrl-Y", "undo, redo"}, {"Ctrl-Q", "quit"}, {"drag, right drag, wheel", "orbit, pan, zoom"}, {"click a vertex", "select it in both views"}, {"click a number", "the step it comes from"},

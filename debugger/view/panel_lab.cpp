@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "debugger/view/plot.h"
+#include "debugger/view/wrong_step.h"
 
 namespace gjkdbg {
 namespace {
@@ -98,7 +99,10 @@ void atlas_area(App& app, ImVec2 at, ImVec2 size) {
 void open_measured(App& app, SceneFile scene, const std::string& title) {
   try {
     app.session.open_for_a_look(std::move(scene), title);
-    app.session.go_to(app.session.findings().empty() ? app.session.count() - 1 : app.session.findings().front().step);
+    const std::vector<Finding>& findings = app.session.findings();
+    const std::optional<WrongStep> wrong = findings.empty() ? where_it_goes_wrong(app.session.recording()) : std::nullopt;
+    app.session.go_to(wrong ? wrong->step : findings.empty() ? app.session.count() - 1 : findings.front().step);
+    if (wrong) app.note(wrong->why);
     app.message.clear(), app.settings.selected.reset();
     app.show_lab = false;
   } catch (const Error& e) {

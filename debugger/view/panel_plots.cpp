@@ -133,7 +133,7 @@ const char* why_no_curve(const Recording& recording) {
     case MethodName::gjk_boolean: return "Only yes or no is asked: this\nmethod keeps no bounds.";
     case MethodName::closed_form: return "A formula gives the answer at once:\nno bounds close in.";
     case MethodName::projections: return "Only the last support proves the\ndistance: no bounds close in.";
-    case MethodName::mpr: return "Yes or no is all that is asked:\nno bounds close in.";
+    case MethodName::mpr: return recording.scene.scene.query == Query::intersect ? "Yes or no is all that is asked:\nno bounds close in." : "MPR's ray is through at once:\nno bounds close in.";
     case MethodName::sat: return "One axis is proof enough:\nno bounds close in.";
     default: return "This run is over before bounds\ncould close in.";
   }

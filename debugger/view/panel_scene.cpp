@@ -1,5 +1,6 @@
 // The left panel: the open scene with everything that can be edited.
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <numbers>
@@ -17,18 +18,37 @@ namespace {
 constexpr double degrees = 180 / std::numbers::pi;
 constexpr float label_width = 96;  ///< logical pixels
 
+bool fit(const char* format, const double* values, int count, float room) {
+  const float field = (room - static_cast<float>(count - 1) * ImGui::GetStyle().ItemInnerSpacing.x) / static_cast<float>(count) - ImGui::GetStyle().FramePadding.x;
+  return std::all_of(values, values + count, [&](double x) { return ImGui::CalcTextSize(formatted(x, format).c_str()).x <= field; });
+}
+
 /// The most digits with which each of the numbers fits into its share of the room; up to five, of which whole numbers need no exponent.
 const char* format_that_fits(const double* values, int count, float room) {
-  const float field = (room - static_cast<float>(count - 1) * ImGui::GetStyle().ItemInnerSpacing.x) / static_cast<float>(count) - ImGui::GetStyle().FramePadding.x;
-  for (const char* format : {"%.4g", "%.5g", "%.3g", "%.2g"}) {
-    const auto fits = [&](double x) { return ImGui::CalcTextSize(formatted(x, format).c_str()).x <= field; };
-    if (std::all_of(values, values + count, fits)) return format;
-  }
+  for (const char* format : {"%.4g", "%.5g", "%.3g"})
+    if (fit(format, values, count, room)) return format;
+  const bool ordinary = std::all_of(values, values + count, [](double x) { return x == 0 || std::abs(x) >= 0.1; });
+  for (const char* format : {"%.2f", "%.2g"})  // 1.35 beside -0.5586 keeps its hundredths
+    if ((ordinary || format[3] == 'g') && fit(format, values, count, room)) return format;
   return "%.1g";
 }
 
-/// One labelled row of numbers; true when edited.
-bool numbers(const Theme& theme, const char* label, double* values, int count, float speed, const double* low = nullptr) {
+/// Of numbers that stand below one another, for each has more digits than fit beside others; true when edited.
+bool numbers_in_rows(const Theme& theme, double* values, int count, float speed, const char* format) {
+  bool edited = false;
+  for (int i = 0; i < count; ++i) {
+    if (i > 0) ImGui::Dummy({0, theme.text->FontSize + 2 * ImGui::GetStyle().FramePadding.y}), ImGui::SameLine(theme.px(label_width));
+    ImGui::PushID(i);
+    ImGui::SetNextItemWidth(-1);
+    edited |= ImGui::DragScalar("##value", ImGuiDataType_Double, &values[i], speed, nullptr, nullptr, format, ImGuiSliderFlags_NoRoundToFormat);
+    takes_a_number();
+    ImGui::PopID();
+  }
+  return edited;
+}
+
+/// One labelled row of numbers, or where `digits`, if more than usual are wanted, have no room in one, a row each; true when edited.
+bool numbers(const Theme& theme, const char* label, double* values, int count, float speed, const double* low = nullptr, int digits = 4) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextColored(vec(theme.palette.text_soft), "%s", label);
   ImGui::SameLine(theme.px(label_width));
@@ -37,7 +57,14 @@ bool numbers(const Theme& theme, const char* label, double* values, int count, f
   ImGui::PushID(label);
   for (int i = 0; i < count; ++i) values[i] += 0.0;  // no "-0"
   const double high = 1e12;
-  const char* format = format_that_fits(values, count, ImGui::GetContentRegionAvail().x);
+  const std::string wanted = "%." + std::to_string(digits) + "g";
+  if (digits > 4 && !fit(wanted.c_str(), values, count, ImGui::GetContentRegionAvail().x)) {
+    const bool edited = numbers_in_rows(theme, values, count, speed, wanted.c_str());
+    ImGui::PopID();
+    ImGui::PopFont();
+    return edited;
+  }
+  const char* format = digits > 4 ? wanted.c_str() : format_that_fits(values, count, ImGui::GetContentRegionAvail().x);
   const bool short_of = std::any_of(values, values + count, [&](double x) { return std::strtod(formatted(x, format).c_str(), nullptr) != x; });
   const bool edited = ImGui::DragScalarN("##values", ImGuiDataType_Double, values, count, speed, low, low ? &high : nullptr, format, std::strcmp(format, "%.4g") == 0 ? 0 : ImGuiSliderFlags_NoRoundToFormat);
   takes_a_number();
@@ -148,7 +175,7 @@ bool choose_type(Shape& shape, int dimension, double size) {
   return edited;
 }
 
-bool body(const Theme& theme, Body& b, int index, Colour colour, int dimension, double size) {
+bool body(const Theme& theme, Body& b, int index, Colour colour, int dimension, double size, int digits) {
   ImGui::PushID(index);
   const auto speed = static_cast<float>(size * 0.005);
   ImGui::Dummy({0, theme.px(4)});
@@ -163,7 +190,7 @@ bool body(const Theme& theme, Body& b, int index, Colour colour, int dimension, 
   bool edited = choose_type(b.shape, dimension, size);
   edited |= std::visit(ShapeEditor{theme, dimension, speed}, b.shape.geometry);
   edited |= numbers(theme, "margin", &b.shape.margin, 1, speed, &zero);
-  edited |= numbers(theme, "position", b.pose.position.data(), dimension, speed);
+  edited |= numbers(theme, "position", b.pose.position.data(), dimension, speed, nullptr, digits);
   edited |= rotation(theme, b.pose, dimension);
   if (b.motion) {
     edited |= numbers(theme, "velocity", b.motion->velocity.data(), dimension, speed);
@@ -307,10 +334,11 @@ void scene_panel(App& app) {
     ImGui::PopFont();
   }
   const bool was_active = ImGui::IsAnyItemActive();
+  if (!was_active) app.place_digits = digits_of_places(next.scene);  // while one is dragged its field stays where it is
   bool edited = false;
   const double size = std::max(1e-300, std::min(app.world_camera.radius, 1e12));
   const int bodies = static_cast<int>(std::min<std::size_t>(next.scene.bodies.size(), 12));
-  for (int i = 0; i < bodies; ++i) edited |= body(theme, next.scene.bodies[static_cast<std::size_t>(i)], i, letter_colour(app, i), next.scene.dimension, size);
+  for (int i = 0; i < bodies; ++i) edited |= body(theme, next.scene.bodies[static_cast<std::size_t>(i)], i, letter_colour(app, i), next.scene.dimension, size, app.place_digits);
   if (next.scene.motion) edited |= add_body(next);
   edited |= method(app, next);
   if (edited) {

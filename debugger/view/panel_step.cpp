@@ -240,7 +240,7 @@ void contacts(App& app, const std::vector<ContactPoint>& all) {
   for (std::size_t i = 0; i < all.size() && i < numbered_contacts; ++i) {
     const ContactPoint& c = all[i];
     const std::string exact = "on the one body " + short_vector(c.point_a, 17) + "\non the other " + short_vector(c.point_b, 17) + "\ndepth " + all_digits(c.depth);
-    number_row(app, ("contact " + std::to_string(i + 1)).c_str(), short_vector(c.point_a), colour, std::nullopt, exact);
+    number_row(app, ("contact " + std::to_string(i + 1)).c_str(), short_place(app.session.recording(), c.point_a), colour, std::nullopt, exact);
   }
 }
 

@@ -39,7 +39,7 @@ bool icon_button(const Theme& theme, const char* id, Icon icon, const char* tip,
   const bool pressed = ImGui::Button(id, size);
   if (strong) ImGui::PopStyleColor();
   draw_icon(ImGui::GetWindowDrawList(), icon, {at.x + size.x / 2, at.y + size.y / 2}, theme.px(6.5f), packed(strong ? rgb(0xffffff) : theme.palette.text));
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip);
+  tip_beside_row(theme, tip);
   ImGui::SameLine(0, theme.px(5));
   return pressed;
 }
@@ -63,21 +63,28 @@ void transport(App& app) {
   const float count_width = ImGui::CalcTextSize(count.c_str()).x;
   if (ImGui::GetCursorPosX() + theme.px(190) + count_width > right) {  // no room for more
     ImGui::SameLine(std::max(ImGui::GetCursorPosX(), right - count_width));
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + (theme.px(30) - ImGui::GetFrameHeight()) / 2);
     ImGui::TextUnformatted(count.c_str());
     return;
   }
   ImGui::SameLine(0, theme.px(14));
+  // In the middle of the buttons' height.
+  const float row = ImGui::GetCursorPosY() + (theme.px(30) - ImGui::GetFrameHeight()) / 2;
+  ImGui::SetCursorPosY(row);
   ImGui::SetNextItemWidth(theme.px(64));
   static const char* const speeds[] = {"0.25x", "0.5x", "1x", "2x", "4x", "8x"};
   int at = static_cast<int>(std::lround(std::log2(s.speed))) + 2;
   if (ImGui::Combo("##speed", &at, speeds, 6)) s.speed = std::pow(2, at - 2);
   ImGui::SameLine();
+  ImGui::SetCursorPosY(row);
   ImGui::Checkbox("loop", &s.loop);
   if (simulated && ImGui::GetItemRectMax().x + theme.px(104) + count_width < ImGui::GetWindowPos().x + right) {
     ImGui::SameLine();
+    ImGui::SetCursorPosY(row);
     ImGui::Checkbox("real time", &s.real_time);
   }
   ImGui::SameLine(right - count_width);
+  ImGui::SetCursorPosY(row);  // the line's base is that of the fields
   ImGui::TextUnformatted(count.c_str());
 }
 

@@ -60,16 +60,11 @@ struct Held {
   bool turning = false;
 };
 
-/// A body's ring, and the small disc beside it that turns the body.
-struct Handle {
-  ImVec2 centre, disc;
-  float radius;
-};
-Handle handle_of(const App& app, int body, const Projection& projection) {
+std::vector<BodyHandle> handles_of(const App& app, const Projection& projection) {
   const SceneMeshes& meshes = app.session.meshes();
-  const float r = app.theme.px(9) * app.theme.marks;
-  const ImVec2 c = at(projection(middle(meshes.bodies[static_cast<std::size_t>(body)]) + row_offset(body, meshes.dimension, projection)));
-  return {c, {c.x + r * 1.9f, c.y - r * 1.5f}, r};
+  std::vector<ViewPoint> middles;
+  for (std::size_t i = 0; i < meshes.bodies.size(); ++i) middles.push_back(middle(meshes.bodies[i]) + row_offset(static_cast<int>(i), meshes.dimension, projection));
+  return place_handles(middles, projection, app.settings.scale);
 }
 
 /// Around its middle.
@@ -92,20 +87,22 @@ void turn(Body& body, const ViewPoint& axis, double angle, int dimension) {
   body.pose.matrix = resolve(body.pose.rotation, dimension).matrix;
 }
 
-/// A ring in each body's middle: dragging it moves the body in the picture's plane; the disc beside it turns it.
+/// A ring in each body's middle, or beside another's that is there: dragging it moves the body in the picture's plane; the disc beside it turns it.
 void body_handles(App& app, const Projection& projection, ImDrawList* draw, Held& held) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const int dimension = app.session.scene().scene.dimension;
-  for (int i = 0; i < static_cast<int>(app.session.meshes().bodies.size()); ++i) {
-    const Handle h = handle_of(app, i, projection);
+  const std::vector<BodyHandle> handles = handles_of(app, projection);
+  const float radius = static_cast<float>(handle_radius * app.settings.scale);
+  for (int i = 0; i < static_cast<int>(handles.size()); ++i) {
+    const ImVec2 ring = at(projection(handles[static_cast<std::size_t>(i)].ring)), disc = at(projection(handles[static_cast<std::size_t>(i)].disc));
     const Colour colour = letter_colour(app, i);
     const std::string letter = body_letter(i);
-    const bool near = ImGui::IsItemHovered() && distance(mouse, h.centre) < h.radius + app.theme.px(3);
-    const bool near_disc = ImGui::IsItemHovered() && dimension > 1 && !near && distance(mouse, h.disc) < app.theme.px(7);
-    draw->AddCircleFilled(h.centre, h.radius, packed(app.theme.palette.view.with_alpha(dimension == 1 ? 1 : 0.75)), 24);  // the letter lies on a body of its own colour
-    draw->AddCircle(h.centre, h.radius, packed(colour.with_alpha(near || (held.body == i && !held.turning) ? 1 : 0.7)), 24, app.theme.px(2));
-    if (dimension > 1) draw->AddCircleFilled(h.disc, app.theme.px(3.5f), packed(colour.with_alpha(near_disc || (held.body == i && held.turning) ? 1 : 0.6)), 16);
-    body_name(app, h.centre, letter, colour);
+    const bool near = ImGui::IsItemHovered() && distance(mouse, ring) < radius + app.theme.px(3);
+    const bool near_disc = ImGui::IsItemHovered() && dimension > 1 && !near && distance(mouse, disc) < app.theme.px(7);
+    draw->AddCircleFilled(ring, radius, packed(app.theme.palette.view.with_alpha(dimension == 1 ? 1 : 0.75)), 24);  // the letter lies on a body of its own colour
+    draw->AddCircle(ring, radius, packed(colour.with_alpha(near || (held.body == i && !held.turning) ? 1 : 0.7)), 24, app.theme.px(2));
+    if (dimension > 1) draw->AddCircleFilled(disc, app.theme.px(3.5f), packed(colour.with_alpha(near_disc || (held.body == i && held.turning) ? 1 : 0.6)), 16);
+    body_name(app, ring, letter, colour);
     if (near && held.body < 0) ImGui::SetTooltip("drag: move %s", letter.c_str());
     if (near_disc && held.body < 0) ImGui::SetTooltip("drag: turn %s", letter.c_str());
     if ((near || near_disc) && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) held = {i, near_disc}, app.session.begin_edit();
@@ -120,7 +117,7 @@ void body_handles(App& app, const Projection& projection, ImDrawList* draw, Held
     next.expect.reset();
     Body& body = next.scene.bodies[static_cast<std::size_t>(held.body)];
     if (held.turning) {
-      const ImVec2 c = handle_of(app, held.body, projection).centre;
+      const ImVec2 c = at(projection(handles[static_cast<std::size_t>(held.body)].ring));
       const double from = std::atan2(c.y - (mouse.y - delta.y), (mouse.x - delta.x) - c.x), to = std::atan2(c.y - mouse.y, mouse.x - c.x);
       turn(body, projection.towards(), std::remainder(to - from, 2 * M_PI), dimension);
     } else {
@@ -133,9 +130,12 @@ void body_handles(App& app, const Projection& projection, ImDrawList* draw, Held
 /// Bodies that have moved on cannot be dragged, and keep their letters.
 void body_letters(App& app, const Projection& projection) {
   const auto& places = app.session.frame().places;
+  const int dimension = app.session.meshes().dimension;
+  std::vector<ViewPoint> middles;
+  for (std::size_t i = 0; i < places.size(); ++i) middles.push_back(to_view(places[i].position) + row_offset(static_cast<int>(i), dimension, projection));
+  const std::vector<BodyHandle> handles = place_handles(middles, projection, app.settings.scale);
   for (int i = 0; i < static_cast<int>(places.size()); ++i) {
-    const int dimension = app.session.meshes().dimension;
-    const ImVec2 c = at(projection(to_view(places[static_cast<std::size_t>(i)].position) + row_offset(i, dimension, projection)));
+    const ImVec2 c = at(projection(handles[static_cast<std::size_t>(i)].ring));
     // On a body, which has the letter's colour.
     ImGui::GetWindowDrawList()->AddCircleFilled(c, app.theme.px(dimension == 1 ? 8.f : 7.f) * app.theme.marks, packed(app.theme.palette.view.with_alpha(dimension == 1 ? 1 : 0.75)), 24);
     body_name(app, c, body_letter(i), letter_colour(app, i));
@@ -217,6 +217,7 @@ void one_view(App& app, const Area& area, const Shown& shown, bool interactive, 
   const float large = std::max(1.f, theme.marks / 1.4f);  // in a hall, as large as the sentence
   const double header = theme.px(48) * large;
   const Projection projection(camera, {area.x, area.y + header * 0.6, area.width, area.height - header * 0.6});
+  app.settings.scale = theme.px(theme.marks);
   const auto make = shown.world ? world_picture : difference_picture;
   const Recording& recording = shown.other ? s.other() : s.recording();
   const float solid = theme.px(38) * large, faded = theme.px(56) * large;

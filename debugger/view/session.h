@@ -152,6 +152,10 @@ class Session {
     std::vector<Past> undo, redo;
     std::set<std::size_t> breakpoints;
     std::map<int, std::size_t> bookmarks;
+    std::optional<std::size_t> loop_from, loop_to;
+    std::optional<Recording> other;  ///< that it is compared with
+    std::optional<Method> other_method;
+    std::string other_title;
   };
   std::optional<Waiting> waiting_;
 };

@@ -86,7 +86,10 @@ void Session::swap_compared(std::string title) {
 void Session::open_for_a_look(SceneFile scene, std::string title) {
   Recording run = record(scene);  // throws before anything has changed
   std::optional<Waiting> waiting = std::exchange(waiting_, std::nullopt);
-  if (!waiting && is_open()) waiting = Waiting{title_, recording_, step_, findings_, undo_, redo_, breakpoints, bookmarks};
+  if (!waiting && is_open()) {
+    waiting = Waiting{title_, recording_, step_, findings_, undo_, redo_, breakpoints, bookmarks, loop_from, loop_to, {}, other_method_, other_title_};
+    if (comparing()) waiting->other = other_;
+  }
   take(std::move(run));
   begin(std::move(title));
   waiting_ = std::move(waiting);
@@ -98,7 +101,8 @@ void Session::take_up_again() {
   take(std::move(back.run));
   begin(std::move(back.title));
   findings_ = std::move(back.findings), undo_ = std::move(back.undo), redo_ = std::move(back.redo);
-  breakpoints = std::move(back.breakpoints), bookmarks = std::move(back.bookmarks);
+  breakpoints = std::move(back.breakpoints), bookmarks = std::move(back.bookmarks), loop_from = back.loop_from, loop_to = back.loop_to;
+  if (back.other) compare_with(std::move(*back.other), std::move(back.other_title)), other_method_ = std::move(back.other_method);
   go_to(back.step);
 }
 

@@ -23,7 +23,7 @@ void scene_note(App& app) {
   if (app.session.step() > 0) return;
   const Scene& scene = app.session.scene().scene;
   section(app.theme, "THE SCENE");
-  if (!scene.description.empty()) wrapped((app.session.can_undo() ? "Edited. As it was opened: " : "") + scene.description, app.theme.palette.text_soft);
+  if (!scene.description.empty() && !app.shows_scene_panel()) wrapped((app.session.can_undo() ? "Edited. As it was opened: " : "") + scene.description, app.theme.palette.text_soft);
   wrapped(question(scene.query), app.theme.palette.text);
 }
 

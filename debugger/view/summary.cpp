@@ -32,6 +32,14 @@ int digits_that_tell(const AnyVector& p, const AnyVector& q) {
   return static_cast<int>(std::clamp(std::ceil(std::log10(far) - std::log10(apart)) + 2, 4.0, 17.0));
 }
 
+int digits_of_places(const Scene& scene) {
+  int digits = 4;
+  for (std::size_t i = 1; i < scene.bodies.size(); ++i) digits = std::max(digits, digits_that_tell(scene.bodies[0].pose.position, scene.bodies[i].pose.position));
+  return digits;
+}
+
+std::string short_place(const Recording& recording, const AnyVector& point) { return short_vector(point, digits_of_places(recording.scene.scene)); }
+
 std::string letters(const std::vector<int>& vertices, const std::vector<int>& order, bool newest_first) {
   std::string out;
   for (const int v : vertices) {
@@ -105,8 +113,8 @@ struct Summarise {
     return s.empty() || t.empty() ? s + t : s + "  " + t;
   }
   std::string operator()(const recorded::ClosedFormEnded& e) const { return std::string(word_of(e.status)) + "  " + short_number((e.lower_bound + e.upper_bound) / 2); }
-  std::string operator()(const recorded::ProjectionsBegan& e) const { return "x = " + short_vector(e.point); }
-  std::string operator()(const recorded::PointPredicted& e) const { return "x = " + short_vector(e.point); }
+  std::string operator()(const recorded::ProjectionsBegan& e) const { return "x = " + short_place(recording, e.point); }
+  std::string operator()(const recorded::PointPredicted& e) const { return "x = " + short_place(recording, e.point); }
   std::string operator()(const recorded::ProjectionsEnded& e) const { return std::string(word_of(e.status)); }
   std::string operator()(const recorded::CastBegan& e) const { return std::to_string(e.pairs.size()) + (e.pairs.size() == 1 ? " pair" : " pairs"); }
   std::string operator()(const recorded::CastAdvanced& e) const { return (recording.scene.scene.bodies.size() > 2 ? pair(e.pair) + "  " : "") + "t = " + short_number(e.time) + "  d = " + short_number(e.distance); }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string_view>
 #include <utility>
 
 #include "debugger/view/app.h"
@@ -38,6 +39,16 @@ std::string shortened(const ImFont* font, const std::string& text, float room) {
 
 namespace {
 
+/// A vector, "(1, 2, 3)," stays on one line where that has room for it.
+std::size_t end_of_word(const std::string& text, std::size_t from, float room) {
+  const std::size_t end = std::min(text.find_first_of(" \n", from), text.size());
+  const bool numbers = from + 1 < text.size() && text[from] == '(' && std::string_view("-0123456789").find(text[from + 1]) != std::string_view::npos;
+  const std::size_t close = numbers ? text.find(')', from) : std::string::npos;
+  if (close == std::string::npos || close < end) return end;
+  const std::size_t whole = std::min(text.find_first_of(" \n", close), text.size());
+  return ImGui::CalcTextSize(text.substr(from, whole - from).c_str()).x <= room ? whole : end;
+}
+
 /// Lines no wider than `room`, broken between words only (ImGui breaks after any point, that of a number, too); a word wider than that, an address, anywhere.
 std::string broken_into_lines(const std::string& text, float room) {
   const auto width = [](const std::string& t) { return ImGui::CalcTextSize(t.c_str()).x; };
@@ -45,7 +56,7 @@ std::string broken_into_lines(const std::string& text, float room) {
   std::string lines;
   float used = 0;
   for (std::size_t i = 0; i < text.size();) {
-    const std::size_t end = std::min(text.find_first_of(" \n", i), text.size());
+    const std::size_t end = end_of_word(text, i, room);
     std::string word = text.substr(i, end - i);
     if (used > 0 && used + space + width(word) > room) lines += '\n', used = 0;
     else if (i > 0 && text[i - 1] == ' ' && !lines.empty() && used > 0) lines += ' ', used += space;
@@ -80,6 +91,14 @@ void tooltip(const Theme& theme, const std::string& text) {
   ImGui::BeginTooltip();
   ImGui::TextUnformatted(broken_into_lines(text, theme.px(372)).c_str());
   ImGui::EndTooltip();
+}
+
+void tip_beside_row(const Theme& theme, const char* text) {
+  if (!ImGui::IsItemHovered()) return;
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax(), size = ImGui::CalcTextSize(text), pad = ImGui::GetStyle().WindowPadding, window = ImGui::GetIO().DisplaySize;
+  const float height = size.y + 2 * pad.y, gap = theme.px(5), below = high.y + gap;
+  ImGui::SetNextWindowPos({std::max(0.f, std::min(low.x, window.x - size.x - 2 * pad.x)), below + height < window.y / 2 ? below : low.y - gap - height});
+  ImGui::SetTooltip("%s", text);
 }
 
 void number_row(App& app, const char* label, const std::string& value, Colour colour, std::optional<std::size_t> source, const std::string& exact) {
