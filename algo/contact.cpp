@@ -8,6 +8,7 @@
 
 #include "algo/flat_feature.h"
 #include "algo/status.h"
+#include "algo/working_scale.h"
 
 namespace gjkdbg {
 namespace {
@@ -196,25 +197,40 @@ std::vector<ContactPoint> behind(const Points& clipped, const AnyVector& r0, con
   return contacts;
 }
 
-}  // namespace
-
-std::vector<ContactPoint> contact_points(const Body& a, const Body& b, const Result& result) {
-  const std::vector<ContactPoint> witness{{*result.witness_a, *result.witness_b, std::max(0.0, -*result.signed_distance)}};
-  if (result.status == word_of(EpaStatus::iteration_limit)) return witness;  // the normal is no side's, nor need it come near
-  const AnyVector n = *result.normal;
+/// Empty: the witness points are all there is.
+std::vector<ContactPoint> shared_points(const Body& a, const Body& b, const AnyVector& n) {
   const auto face_a = flat_feature(a, n), face_b = flat_feature(b, -n);
-  if (!face_a || !face_b) return witness;
+  if (!face_a || !face_b) return {};
   const bool reference_is_a = face_a->alignment >= face_b->alignment - 1e-12;
   const FlatFeature &reference = reference_is_a ? *face_a : *face_b, &incident = reference_is_a ? *face_b : *face_a;
   const double size = reference.size + incident.size + reference.radius + incident.radius;
   if (reference.alignment < alignment_limit) {
     const auto line_a = line_across(*face_a, n), line_b = line_across(*face_b, -n);
-    const auto contacts = behind(line_beside_line(line_a, line_b), line_a ? (*line_a)[0] : n, n, face_a->radius, *face_b, size, true);
-    return contacts.empty() ? witness : contacts;
+    return behind(line_beside_line(line_a, line_b), line_a ? (*line_a)[0] : n, n, face_a->radius, *face_b, size, true);
   }
   const AnyVector outward = reference_is_a ? n : AnyVector(-n), on_face = reference.disc ? AnyVector(reference.disc->center) : reference.points[0];
-  const auto contacts = behind(common_outline(incident, reference, outward), on_face, outward, reference.radius, incident, size, reference_is_a);
-  return contacts.empty() ? witness : contacts;
+  return behind(common_outline(incident, reference, outward), on_face, outward, reference.radius, incident, size, reference_is_a);
+}
+
+}  // namespace
+
+std::vector<ContactPoint> contact_points(const Body& a, const Body& b, const Result& result) {
+  std::vector<ContactPoint> contacts;
+  const double scale = working_scale<double>(a, b);
+  if (result.status == word_of(EpaStatus::iteration_limit)) {
+    // The normal is no side's, nor need it come near.
+  } else if (scale == 1) {
+    contacts = shared_points(a, b, *result.normal);
+  } else {
+    // In units in which products of lengths are numbers, from body 0's place on: in them the way to the world's origin need be none.
+    Body here = a, there = b;
+    here.shape = scaled(a.shape, scale), here.pose.position *= 0;
+    there.shape = scaled(b.shape, scale), there.pose.position = (b.pose.position - a.pose.position) * scale;
+    contacts = shared_points(here, there, *result.normal);
+    for (ContactPoint& c : contacts) c = {a.pose.position + c.point_a / scale, a.pose.position + c.point_b / scale, c.depth / scale};
+  }
+  if (contacts.empty()) contacts = {{*result.witness_a, *result.witness_b, std::max(0.0, -*result.signed_distance)}};
+  return contacts;
 }
 
 double least_apart(double size_a, double size_b, double far) {

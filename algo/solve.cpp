@@ -69,13 +69,13 @@ std::vector<ContactPoint> joined_contacts(const std::vector<Result>& parts, cons
   if (parts.size() == 1) return *parts[0].contacts;
   if (parts.empty() || !total.normal) return {};  // none touches, or one overlaps by a depth that was not asked for
   std::vector<ContactPoint> contacts;
-  const double apart = least_apart(size_of(scene.bodies[0].shape), size_of(scene.bodies[1].shape), total.witness_a->norm());
+  const double apart = least_apart(size_of(scene.bodies[0].shape), size_of(scene.bodies[1].shape), total.witness_a->stableNorm());
   double size = 0;
   for (const Result& part : parts) {
     if ((*part.normal - *total.normal).norm() > 1e-6) continue;
     for (const ContactPoint& point : *part.contacts) {
-      size = std::max(size, (point.point_a - *total.witness_a).norm());
-      const auto same = [&](const ContactPoint& other) { return (other.point_a - point.point_a).norm() <= std::max(apart, 1e-9 * size); };
+      size = std::max(size, (point.point_a - *total.witness_a).stableNorm());
+      const auto same = [&](const ContactPoint& other) { return (other.point_a - point.point_a).stableNorm() <= std::max(apart, 1e-9 * size); };
       if (std::none_of(contacts.begin(), contacts.end(), same)) contacts.push_back(point);
     }
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "shapes/convex.h"
 #include "shapes/scene.h"
 
 namespace gjkdbg {

@@ -1,8 +1,6 @@
 // check, scenes so small that squares of their lengths are zero, as those of 1e-200 are: they are judged in units of their own.
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <type_traits>
 #include <utility>
 
 #include "recordings/check_context.h"
@@ -54,27 +52,9 @@ struct Lengths {
   template <class T>
   void scale(T&) {}  // numbers of things, words
 
-  void scale(Shape& shape) {
-    scale(shape.margin);
-    std::visit(
-        [this](auto& g) {
-          using G = std::decay_t<decltype(g)>;
-          if constexpr (requires { g.radius; }) scale(g.radius);
-          if constexpr (requires { g.half_height; }) scale(g.half_height);
-          if constexpr (requires { g.radii; }) scale(g.radii);
-          if constexpr (requires { g.points; }) scale(g.points);
-          if constexpr (std::is_same_v<G, Box>) scale(g.min), scale(g.max);
-          if constexpr (std::is_same_v<G, Sum>) {
-            for (std::shared_ptr<const Shape>* part : {&g.first, &g.second}) {
-              auto copy = std::make_shared<Shape>(**part);
-              scale(*copy), *part = std::move(copy);
-            }
-          }
-        },
-        shape.geometry);
-  }
   void scale(Body& body) {
-    scale(body.shape), scale(body.pose.position);
+    body.shape = scaled(body.shape, by);
+    scale(body.pose.position);
     if (body.motion) scale(body.motion->velocity);
   }
   void scale(Result& r) {

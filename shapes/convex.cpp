@@ -33,8 +33,8 @@ void Convex<D, S>::set_vertices(std::vector<Vector<D, double>> points, double sc
   for (const auto& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
   for (int i = 0; i < D; ++i) reference_[i] = exact_reference(low[i], high[i]);
   for (auto& p : points) {
-    extent_ = std::max(extent_, (p - reference_).norm() * scale);
     p = (p - reference_) * scale;
+    extent_ = std::max(extent_, p.norm());
   }
   reference_ *= scale;
   vertices_ = static_cast<int>(points.size());
@@ -58,7 +58,7 @@ void Convex<D, S>::set(const Geometry& g, double scale) {
     for (int i = 0; i < D; ++i) reference_[i] = exact_reference(low[i], high[i]);
     low -= reference_, high -= reference_;
     core.corners = {(high * scale).template cast<S>(), (low * scale).template cast<S>()};
-    extent_ = low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm() * scale;
+    extent_ = (low.cwiseAbs().cwiseMax(high.cwiseAbs()) * scale).norm();
     reference_ *= scale;
     vertices_ = 1 << D;
     core_ = core;

@@ -1,6 +1,7 @@
 #include "shapes/features.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "shapes/convex_hull.h"
@@ -73,11 +74,21 @@ double beside(const std::vector<AnyVector>& points, const ConvexHull& hull) {
   return most;
 }
 
+/// Ways alone are told: by a power of two, which rounds none of them, areas stay numbers (of sides of 1e-170 they are none).
+void near_one(std::vector<AnyVector>& points) {
+  double size = 0;
+  for (const AnyVector& p : points) size = std::max(size, p.cwiseAbs().maxCoeff());
+  if (size == 0) return;
+  const double by = std::ldexp(1.0, std::min(-std::ilogb(size), 1000));
+  for (AnyVector& p : points) p *= by;
+}
+
 }  // namespace
 
 std::optional<Features> features_of(const Shape& shape, int dimension) {
-  const auto corners = corners_of(shape, dimension);
+  auto corners = corners_of(shape, dimension);
   if (!corners) return std::nullopt;
+  near_one(corners->points);
   const ConvexHull hull = convex_hull(corners->points, dimension);
   if (dimension == 1) return Features{{AnyVector::Ones(1), -AnyVector::Ones(1)}, {}};
   Features features = dimension == 2 ? features_2d(corners->points, hull) : features_3d(corners->points, hull);

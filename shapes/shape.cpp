@@ -114,6 +114,24 @@ void validate(const Shape& shape, int dimension) {
   check_size(shape.margin, "/margin");
 }
 
+Shape scaled(const Shape& shape, double by) {
+  Shape out = shape;
+  out.margin *= by;
+  std::visit(
+      [by](auto& g) {
+        if constexpr (requires { g.radius; }) g.radius *= by;
+        if constexpr (requires { g.half_height; }) g.half_height *= by;
+        if constexpr (requires { g.radii; }) g.radii *= by;
+        if constexpr (requires { g.min, g.max; }) g.min *= by, g.max *= by;
+        if constexpr (requires { g.points; })
+          for (AnyVector& p : g.points) p *= by;
+        if constexpr (requires { g.first, g.second; })
+          for (std::shared_ptr<const Shape>* part : {&g.first, &g.second}) *part = std::make_shared<const Shape>(scaled(**part, by));
+      },
+      out.geometry);
+  return out;
+}
+
 std::string type_name(const Shape& shape, int dimension) {
   struct Name {
     int dimension;

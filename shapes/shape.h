@@ -86,6 +86,9 @@ struct Shape {
 /// type that does not exist in this dimension.
 void validate(const Shape& shape, int dimension);
 
+/// All lengths times a factor: a power of two rounds nothing.
+Shape scaled(const Shape& shape, double by);
+
 /// Lengths beyond this are refused: products of four lengths must stay finite in double.
 inline constexpr double largest_length = 1e60;
 

@@ -7,6 +7,8 @@ GUARD = """        if dot(nearer, nearer) >= dot(v, v):
             return simplex, v, weights  # rounding: no nearer part can be told
 """
 FACES = "    faces = [(list(f),) +"
+# Ends where a new face would be no more than a point.
+NO_POINTS = ("        planes = [", "        if any(v.w == w.w for f in new for v in f[:-1]):\n            break\n        planes = [")
 SUPPORT = "w = support(scaled(-1, v))"
 KEPT = "simplex, v, weights = kept, nearer, weights_now"
 
@@ -43,23 +45,23 @@ BUGS = [
     ("a face forgotten", "box-box-deep", [("faces = [f for f in faces if f not in seen] +", "faces = [f for f in faces if f not in seen][1:] +")], "open-polytope"),
     ("an edge forgotten, 2D", "2d-deep", [("faces = [f for f in faces if f not in seen] +", "faces = [f for f in faces if f not in seen][1:] +")], "open-polytope"),
     ("horizon with shared edges", "box-box-deep", [("if ridges.count(r) == 1]", "]")], "open-polytope"),
-    ("only the nearest face split", "box-box-deep", [("seen = [f for f in faces if dot(f[1], w.w) > f[2] + rounding]", "seen = [f for f in faces if f[0] is face]")], "visible-face-kept"),
+    ("only the nearest face split", "box-box-deep", [("seen = [f for f in faces if sees(w, f, rounding)]", "seen = [f for f in faces if f[0] is face]")], "visible-face-kept"),
     ("farthest face chosen", "box-box-deep", [("min(faces, key=lambda f: f[2])", "max(faces, key=lambda f: f[2])")], "not-closest-face"),
     ("farthest edge chosen, 2D", "2d-deep", [("min(faces, key=lambda f: f[2])", "max(faces, key=lambda f: f[2])")], "not-closest-face"),
-    ("normals inwards", "box-box-deep", [("n = scaled((1 if dot", "n = scaled((-1 if dot")], "flipped-face-normal"),
+    ("normals inwards", "box-box-deep", [("exact(inside))) < 0", "exact(inside))) > 0")], "flipped-face-normal"),
     ("reported normal flipped", "box-box-deep", [("normal=normal, distance=distance)", "normal=scaled(-1, normal), distance=distance)")], "flipped-face-normal"),
     ("start without the origin", "ellipsoid-sphere-deep", [("    inside = combine(", "    points = [support(d) for d in ([1.0, 0.1, 0.2], [1.0, 1.0, 0.1], [0.2, 1.0, 1.0], [1.0, 0.3, -1.0])]\n    inside = combine(")], "any:origin-outside-polytope"),
     ("EPA stops at once", "obb-shallow", [("if height - distance <= max", "if True or height - distance <= max"), ("return height, normal, combine", "return distance, normal, combine")], "stopped-early"),
     ("EPA asks along the normal of the round before", "box-box-deep", [("w = support(normal)", "w = support(getattr(support, 'last', normal)); support.last = normal")], "direction-not-perpendicular"),
     ("EPA asks towards the middle of the face", "obb-shallow", [("w = support(normal)", "w = support([sum(x.w[i] for x in face) / len(face) for i in range(dimension)])")], "direction-not-perpendicular"),
     ("EPA asks the way back", "2d-deep", [("w = support(normal)", "w = support(scaled(-1, normal))")], "direction-away-from-origin"),
-    ("EPA goes on at the boundary", "2d-deep", [("if height - distance <= max(tolerance * height, rounding) or known or len(faces) > 600:", "if len(faces) > 9:"),
-                                                ("> f[2] + rounding]", "> f[2] + rounding] or [next(f for f in faces if f[0] is face)]")], "no-progress"),
-    ("EPA never grows", "box-box-deep", [("if height - distance <= max(tolerance * height, rounding) or known or len(faces) > 600:", "if False:"), ("> f[2] + rounding]", "> 99]")], "cycle"),
-    ("EPA never grows, 2D", "2d-deep", [("if height - distance <= max(tolerance * height, rounding) or known or len(faces) > 600:", "if False:"), ("> f[2] + rounding]", "> 99]")], "cycle"),
+    ("EPA goes on at the boundary", "2d-deep", [("if height - distance <= max(tolerance * height, rounding) or len(faces) > 600:", "if len(faces) > 9:"),
+                                                ("if sees(w, f, rounding)]", "if dot(f[1], w.w) > f[2] + rounding] or [next(f for f in faces if f[0] is face)]"), NO_POINTS], "no-progress"),
+    ("EPA never grows", "box-box-deep", [("if height - distance <= max(tolerance * height, rounding) or len(faces) > 600:", "if False:"), ("if sees(w, f, rounding)]", "if dot(f[1], w.w) > 99]")], "cycle"),
+    ("EPA never grows, 2D", "2d-deep", [("if height - distance <= max(tolerance * height, rounding) or len(faces) > 600:", "if False:"), ("if sees(w, f, rounding)]", "if dot(f[1], w.w) > 99]")], "cycle"),
     ("a face twice", "box-box-deep", [("faces=[[x.number for x in f[0]] for f in faces]", "faces=[[x.number for x in f[0]] for f in faces] + ([[x.number for x in faces[-1][0]]] if len(faces) > 4 else [])")], "open-polytope"),
-    ("faces removed that are not seen", "box-box-deep", [("> f[2] + rounding]", "> 0]")], "hidden-face-removed"),
-    ("every face removed", "2d-deep", [("> f[2] + rounding]", "< f[2] + 99]")], "bad-message"),
+    ("faces removed that are not seen", "box-box-deep", [("if sees(w, f, rounding)]", "if dot(f[1], w.w) > 0]")], "hidden-face-removed"),
+    ("every face removed", "2d-deep", [("if sees(w, f, rounding)]", "if dot(f[1], w.w) < f[2] + 99]")], "bad-message"),
     ("no vertex dropped", "2d-corner-to-edge", [(KEPT, "simplex, v, weights = [w] + simplex, nearer, weights_now")], "wrong-region"),
     ("closest with its sign turned", "box-box-apart", [("closest=v)", "closest=scaled(-1, v))")], "wrong-closest"),
     ("another direction announced", "box-box-apart", [("closest=v)", "closest=v, direction=v)")], "direction-not-asked"),

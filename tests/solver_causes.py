@@ -1,5 +1,5 @@
 """Bugs planted in the Python kit and in Muratori's form, with what `check` must say of their cause: for solver_test.py."""
-from solver_bugs import GUARD, SUPPORT
+from solver_bugs import GUARD, NO_POINTS, SUPPORT
 
 SAID = "    print(json.dumps(message), flush=True)"
 SILENT = (SAID, '    if message["type"] in ("support", "result"): print(json.dumps(message), flush=True)')
@@ -51,7 +51,7 @@ CAUSES = [
     ("a simplex of vertices that are none, after the polytope", "kit", "box-box-deep", [('say(type="result", **solve(scene["dimension"], scene["query"], scene["tolerance"]))', 'answer = solve(scene["dimension"], scene["query"], scene["tolerance"])\n    say(type="simplex", vertices=[55])\n    say(type="result", **answer)')], "unknown-vertex", ["The simplex names vertex 55"], []),
     ("d . w <= 0 where < is due, of flat bodies", "muratori", "coplanar-triangles", [("if dot(w[0],d)<0: return False", "if dot(w[0],d)<=0: return False")], "unjustified-separation", ["they touch, which counts as overlapping", "d . w < 0 is due"], []),
     ("d . w <= 0 where < is due", "muratori", "3d-touch-edge-edge", [("if dot(w[0],d)<0: return False", "if dot(w[0],d)<=0: return False")], "unjustified-separation", ["they touch, which counts as overlapping", "d . w < 0 is due"], []),
-    ("EPA goes on at the boundary, and ends", "kit", "2d-deep", [("if height - distance <= max(tolerance * height, rounding) or known or len(faces) > 600:", "if len(faces) > 9:"), ("> f[2] + rounding]", "> f[2] + rounding] or [next(f for f in faces if f[0] is face)]")],
+    ("EPA goes on at the boundary, and ends", "kit", "2d-deep", [("if height - distance <= max(tolerance * height, rounding) or len(faces) > 600:", "if len(faces) > 9:"), ("if sees(w, f, rounding)]", "if dot(f[1], w.w) > f[2] + rounding] or [next(f for f in faces if f[0] is face)]"), NO_POINTS],
      "no-progress", ["It ended all the same, and with the right answer: here it merely costs", "not never end"], []),
     ("EPA's limit, and what follows", "kit", "spheres-concentric", [("or len(faces) > 600", "or len(faces) > 40"), (DEEP, "witness_a=combine([1, depth / 2.2], [middle, normal])")], "stopped-early", ["the face is not on the boundary"], []),
 ]

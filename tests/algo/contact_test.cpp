@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "recordings/check.h"
 #include "recordings/recording.h"
@@ -248,6 +249,40 @@ TEST(ContactPoints, OfARunThatEndedAtItsLimitAreTheWitnesses) {
     ++limited;
   }
   EXPECT_GT(limited, 2);
+}
+
+/// Of sides of 1e-170 areas are no numbers, and of 1e-200 not even squares of lengths; far from the world's origin that is no matter either.
+TEST(ContactPoints, AreThoseOfTheSameSceneInAnyUnit) {
+  const Shape box{Box{-Eigen::Vector3d::Ones(), Eigen::Vector3d::Ones()}, 0}, rod{Cylinder{1, 1.5, 1}, 0}, rounded{Capsule{0.5, 2, 1}, 0.25};
+  const Shape hull{PointSet{PointSetKind::hull, {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(-1, 1, 0), Eigen::Vector3d(-1, -1, 0), Eigen::Vector3d(0, 0, 2)}, {}}, 0};
+  const Shape sum{Sum{std::make_shared<const Shape>(box), std::make_shared<const Shape>(hull)}, 0};
+  const Shape mesh{Mesh{{Eigen::Vector3d(-3, 0, -3), Eigen::Vector3d(3, 0, -3), Eigen::Vector3d(0, 0, 3), Eigen::Vector3d(0, 0, -9)}, {{0, 2, 1}, {0, 1, 3}}, {}}, 0};
+  int several = 0;
+  for (const Shape& a : {box, rod, rounded, hull, sum, mesh})
+    for (const Shape& b : {box, rod, rounded, hull}) {
+      const auto contacts = [&](int exponent) {
+        const double unit = std::ldexp(1.0, exponent);
+        Scene scene;
+        scene.query = Query::contact;
+        scene.bodies = {{"A", scaled(a, unit), identity_pose(3)}, {"B", scaled(b, unit), identity_pose(3)}};
+        scene.bodies[1].pose.position = Eigen::Vector3d(0.25, 0.875, -0.125) * unit;
+        std::vector<ContactPoint> found = *solve(scene, resolve_settings({}, scene)).contacts;
+        for (ContactPoint& c : found) c = {c.point_a / unit, c.point_b / unit, c.depth / unit};
+        return found;
+      };
+      const auto right = contacts(0);
+      several += right.size() > 2;
+      for (const int exponent : {-999, -665, -333, -130, 130}) {
+        const auto found = contacts(exponent);
+        ASSERT_EQ(found.size(), right.size()) << exponent << ", shapes " << a.geometry.index() << " and " << b.geometry.index();
+        for (std::size_t i = 0; i < found.size(); ++i) {
+          EXPECT_LE((found[i].point_a - right[i].point_a).norm(), 1e-9) << exponent;
+          EXPECT_LE((found[i].point_b - right[i].point_b).norm(), 1e-9) << exponent;
+          EXPECT_NEAR(found[i].depth, right[i].depth, 1e-9) << exponent;
+        }
+      }
+    }
+  EXPECT_GT(several, 5);
 }
 
 }  // namespace

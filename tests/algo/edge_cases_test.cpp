@@ -382,5 +382,15 @@ TEST(EdgeCases, WitnessesOfCurvedBodiesLieOnThem) {
   }
 }
 
+/// Squares of lengths of 1e-170 are no numbers: the box's extent was 0 by them, and the difference flat. The other body has no extent of its own.
+TEST(EdgeCases, ABoxSmallerThanItsSquares) {
+  for (const char* body : {R"({"type": "box", "half_extents": [1e-200, 1e-200, 2e-200]})", R"({"type": "hull", "points": [[1e-200, 0, 0], [-1e-200, 1e-200, 0], [-1e-200, -1e-200, 0], [0, 0, 2e-200], [0, 0, -2e-200]]})"}) {
+    const Result r = run(scene_of(R"("dimension": 3, "bodies": [{"shape": )" + std::string(body) + R"(}, {"shape": {"type": "sphere", "radius": 1e-200}}])"), {});
+    EXPECT_EQ(r.status, "converged") << body;
+    EXPECT_NEAR(r.normal->norm(), 1, 1e-12) << body;
+    EXPECT_LT(*r.signed_distance, -1.3e-200) << body;
+  }
+}
+
 }  // namespace
 }  // namespace gjkdbg

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "algo/solve.h"
 #include "recordings/check.h"
@@ -85,6 +86,24 @@ TEST(EpaStart, HullsOfManyVerticesAgreeWithSat) {
   EXPECT_GT(octahedra, 0);
   EXPECT_GT(grown, 0);
   EXPECT_GT(without, 0);
+}
+
+/// All sides tie: EPA comes to each of them, 1,020 here; the limit that nobody gave is no reason to leave a polytope unanswered.
+TEST(EpaLimit, ManySidesAboutOneAxisAreFinite) {
+  Scene scene;
+  scene.query = Query::penetration;
+  PointSet prism{PointSetKind::hull, {}, {}};
+  for (int i = 0; i < 1024; ++i) prism.points.push_back(Eigen::Vector3d(std::cos((i / 2) * std::numbers::pi / 256), std::sin((i / 2) * std::numbers::pi / 256), i % 2 ? 2.0 : -2.0));
+  scene.bodies = {{"A", {prism, 0}, identity_pose(3)}, {"B", {prism, 0}, identity_pose(3)}};
+  for (const MethodName name : {MethodName::gjk, MethodName::fastest}) {
+    Method method;
+    method.name = name;
+    const Result r = solve(scene, resolve_settings(method, scene));
+    EXPECT_EQ(r.status, "converged");
+    EXPECT_NEAR(*r.signed_distance, -2 * std::cos(std::numbers::pi / 512), 1e-12);
+    method.max_iterations = 512;
+    EXPECT_EQ(solve(scene, resolve_settings(method, scene)).status, "iteration_limit");
+  }
 }
 
 }  // namespace

@@ -275,5 +275,24 @@ TEST(Trace, EpaStallsWherePrecisionEnds) {
   EXPECT_GT(stalled, 0);
 }
 
+/// Faces of bodies of 1e-170 have areas that are no numbers; the ways they face are told all the same.
+TEST(Invariance, SatHasItsAxesInAnyUnit) {
+  RandomScenes random(23);
+  Method sat;
+  sat.name = MethodName::sat;
+  for (int k = 0; k < 60 && !testing::Test::HasFailure(); ++k) {
+    const Scene scene = random.scene(2 + k % 2, Family::general, true);
+    const Result right = answer(scene, sat);
+    for (const int exponent : {-999, -860, -600, 150}) {
+      Scene other = scene;
+      for (Body& body : other.bodies) body.shape = scaled(body.shape, std::ldexp(1.0, exponent)), body.pose.position *= std::ldexp(1.0, exponent);
+      const Result r = answer(other, sat);
+      EXPECT_EQ(r.status, right.status) << "scene " << k << ", 2^" << exponent;
+      EXPECT_EQ(r.iterations, right.iterations) << "scene " << k << ", 2^" << exponent;
+      EXPECT_EQ(*r.normal, *right.normal) << "scene " << k << ", 2^" << exponent;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace gjkdbg

@@ -4,6 +4,7 @@
 //
 // Replace what `main` calls by yours. All it needs is support(d): the farthest point w of A - B along d, with a and b, w = a - b.
 import java.io.*;
+import java.math.*;
 import java.util.*;
 import java.util.function.*;
 import java.util.stream.*;
@@ -61,14 +62,17 @@ public class Gjk {
     }
   }
   /** Weights of the point nearest the origin in the flat through the points, or null when they do not span it.
-   *  With p0 + sum t_i e_i, e_i = p_i - p0, the nearest has e_j . (p0 + sum t_i e_i) = 0 for all j: solved by elimination. */
+   *  With p0 + sum t_i e_i, e_i = p_i - p0, the nearest has e_j . (p0 + sum t_i e_i) = 0 for all j: solved by elimination. p0 is the point that is
+   *  nearest to the others: of a sliver's two long sides the products would lose what sets them apart. */
   static double[] affineWeights(List<Vertex> p) {
     int n = p.size() - 1;
+    ToDoubleFunction<Vertex> spread = x -> p.stream().mapToDouble(y -> dot(minus(y.w, x.w), minus(y.w, x.w))).sum();
+    int base = p.indexOf(p.stream().min(Comparator.comparingDouble(spread)).get());
     double[][] e = new double[n][], rows = new double[n][n + 1];
-    for (int i = 0; i < n; ++i) e[i] = minus(p.get(i + 1).w, p.get(0).w);
+    for (int i = 0; i < n; ++i) e[i] = minus(p.get(i < base ? i : i + 1).w, p.get(base).w);
     for (int i = 0; i < n; ++i) {
       for (int j = 0; j < n; ++j) rows[i][j] = dot(e[i], e[j]);
-      rows[i][n] = -dot(e[i], p.get(0).w);
+      rows[i][n] = -dot(e[i], p.get(base).w);
     }
     for (int c = 0; c < n; ++c) {
       for (int r = c + 1; r < n; ++r)
@@ -76,8 +80,8 @@ public class Gjk {
       if (Math.abs(rows[c][c]) <= 1e-14 * dot(e[c], e[c])) return null;
       for (int r = 0; r < n; ++r) if (r != c) rows[r] = plus(rows[r], -rows[r][c] / rows[c][c], rows[c]);
     }
-    double[] weights = unit(n + 1, 0);
-    for (int i = 0; i < n; ++i) { weights[i + 1] = rows[i][n] / rows[i][i]; weights[0] -= weights[i + 1]; }
+    double[] weights = unit(n + 1, base);
+    for (int i = 0; i < n; ++i) { double t = rows[i][n] / rows[i][i]; weights[i < base ? i : i + 1] = t; weights[base] -= t; }
     return weights;
   }
   /** The part of the simplex nearest the origin. Tries every part; slow, and never wrong. */
@@ -111,20 +115,43 @@ public class Gjk {
   }
 
   // --- EPA ----------------------------------------------------------------------------------------------------------------
-  /** A face with its unit normal away from a point inside (null: no area) and its distance from the origin. */
-  record Face(List<Vertex> corners, double[] normal, double distance) {}
+  /** A face with its unit normal away from a point inside, its distance from the origin, and the normal of any length without rounding. */
+  record Face(List<Vertex> corners, double[] normal, double distance, BigDecimal[] exactNormal) {}
   record Depth(double depth, double[] normal, Nearest foot) {}
 
+  // Without rounding.
+  static BigDecimal[] exact(double[] x) { return Arrays.stream(x).mapToObj(BigDecimal::new).toArray(BigDecimal[]::new); }
+  static BigDecimal[] minus(BigDecimal[] x, BigDecimal[] y) { return IntStream.range(0, x.length).mapToObj(i -> x[i].subtract(y[i])).toArray(BigDecimal[]::new); }
+  static BigDecimal dot(BigDecimal[] x, BigDecimal[] y) { return IntStream.range(0, x.length).mapToObj(i -> x[i].multiply(y[i])).reduce(BigDecimal.ZERO, BigDecimal::add); }
+  static BigDecimal cross(BigDecimal[] x, BigDecimal[] y, int i, int j) { return x[i].multiply(y[j]).subtract(x[j].multiply(y[i])); }
+
+  /** Of the slivers that thin shapes lead to a normal from rounded differences may be any. */
   static Face face(List<Vertex> c, double[] inside) {
-    double[] n = {1}, p = c.get(0).w;
-    if (c.size() == 2) n = new double[] {c.get(1).w[1] - p[1], p[0] - c.get(1).w[0]};
+    BigDecimal[] p = exact(c.get(0).w), n = {BigDecimal.ONE};
+    if (c.size() == 2) { BigDecimal[] x = minus(exact(c.get(1).w), p); n = new BigDecimal[] {x[1], x[0].negate()}; }
     if (c.size() == 3) {
-      double[] x = minus(c.get(1).w, p), y = minus(c.get(2).w, p);
-      n = new double[] {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
+      BigDecimal[] x = minus(exact(c.get(1).w), p), y = minus(exact(c.get(2).w), p);
+      n = new BigDecimal[] {cross(x, y, 1, 2), cross(x, y, 2, 0), cross(x, y, 0, 1)};
     }
-    if (length(n) == 0) return new Face(c, null, 0);
-    n = scaled((dot(n, minus(p, inside)) > 0 ? 1 : -1) / length(n), n);
-    return new Face(c, n, dot(n, p));
+    if (dot(n, minus(p, exact(inside))).signum() < 0) n = Arrays.stream(n).map(BigDecimal::negate).toArray(BigDecimal[]::new);
+    BigDecimal largest = Arrays.stream(n).map(BigDecimal::abs).max(Comparator.naturalOrder()).get();
+    double[] unit = Arrays.stream(n).mapToDouble(x -> x.divide(largest, new MathContext(20)).doubleValue()).toArray();
+    unit = scaled(1 / length(unit), unit);
+    return new Face(c, unit, dot(unit, c.get(0).w), n);
+  }
+  /** Whether w lies on an edge's line, but for 1e-14 of the lengths: with |x|^2 |y|^2 - (x . y)^2 the square of the triangle's area, twice. */
+  static boolean inLine(Vertex w, List<Vertex> edge) {
+    BigDecimal[] x = minus(exact(w.w), exact(edge.get(0).w)), y = minus(exact(w.w), exact(edge.get(1).w));
+    BigDecimal xx = dot(x, x), yy = dot(y, y), xy = dot(x, y), longest = xx.max(yy);
+    return xx.multiply(yy).subtract(xy.multiply(xy)).compareTo(longest.multiply(longest).scaleByPowerOfTen(-28)) <= 0;
+  }
+  /** Whether w lies beyond the face, or in its plane: told without rounding where that might decide. So the faces seen are always one disc with one
+   *  rim, and no new face is without area: w on the line of an edge takes away the faces on both sides of it. */
+  static boolean sees(Vertex w, Face f, double rounding) {
+    double height = dot(f.normal, w.w) - f.distance;
+    if (Math.abs(height) > rounding) return height > 0;
+    if (dot(f.exactNormal, minus(exact(w.w), exact(f.corners.get(0).w))).signum() >= 0) return true;
+    return f.corners.size() == 3 && combinations(f.corners, 2).stream().anyMatch(edge -> inLine(w, edge));
   }
   static double[] across(List<double[]> basis, double[] x) { for (double[] e : basis) x = plus(x, -dot(e, x), e); return x; }
 
@@ -158,28 +185,28 @@ public class Gjk {
     if (flat != null) return new Depth(0, flat, nearest(simplex));
     for (Vertex x : points) inside = plus(inside, 1.0 / points.size(), x.w);
     double[] middle = inside;
+    // Of a point's height above a plane: its normal's numbers are right to the last bits.
     double rounding = 1e-14 * points.stream().mapToDouble(x -> length(x.w)).max().getAsDouble(), height;
     List<Face> faces = combinations(points, dimension).stream().map(c -> face(c, middle)).collect(Collectors.toList());
     Face f;
     while (true) {
       say("{\"type\":\"polytope\",\"faces\":[" + faces.stream().map(x -> numbers(x.corners)).collect(Collectors.joining(",")) + "]}");
-      Face nearestFace = f = Collections.min(faces, Comparator.comparingDouble(Face::distance));
+      f = Collections.min(faces, Comparator.comparingDouble(Face::distance));
       say("{\"type\":\"face\",\"vertices\":" + numbers(f.corners) + ",\"normal\":" + text(f.normal) + ",\"distance\":" + f.distance + "}");
       Vertex w = support(f.normal);
       height = dot(f.normal, w.w);
-      boolean known = faces.stream().anyMatch(x -> x.corners.stream().anyMatch(y -> Arrays.equals(y.w, w.w)));
-      if (height - nearestFace.distance <= Math.max(tolerance * height, rounding) || known || faces.size() > 600) break;
+      rounding = Math.max(rounding, 1e-14 * length(w.w));
+      if (height - f.distance <= Math.max(tolerance * height, rounding) || faces.size() > 600) break;
       Map<Set<Integer>, List<Vertex>> horizon = new LinkedHashMap<>(); // what belongs to one removed face only
       List<Face> kept = new ArrayList<>();
       for (Face x : faces) {
-        if (dot(x.normal, w.w) <= x.distance + rounding) { kept.add(x); continue; }
+        if (!sees(w, x, rounding)) { kept.add(x); continue; }
         for (List<Vertex> ridge : combinations(x.corners, dimension - 1)) {
           Set<Integer> key = ridge.stream().map(Vertex::number).collect(Collectors.toSet());
           if (horizon.remove(key) == null) horizon.put(key, new ArrayList<>(ridge));
         }
       }
       for (List<Vertex> ridge : horizon.values()) { ridge.add(w); kept.add(face(ridge, middle)); }
-      if (kept.stream().anyMatch(x -> x.normal == null)) break;
       faces = kept;
     }
     // The origin's projection on the plane, as a combination of the corners of the face that holds it.

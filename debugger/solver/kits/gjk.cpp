@@ -50,14 +50,22 @@ struct Nearest {
   }
 };
 /// Weights of the point nearest the origin in the flat through the points; empty when they do not span it.
-/// With p0 + sum t_i e_i, e_i = p_i - p0, the nearest has e_j . (p0 + sum t_i e_i) = 0 for all j: solved by elimination.
+/// With p0 + sum t_i e_i, e_i = p_i - p0, the nearest has e_j . (p0 + sum t_i e_i) = 0 for all j: solved by elimination. p0 is the point that is nearest
+/// to the others: of a sliver's two long sides the products would lose what sets them apart.
 static Vec affine_weights(const Corners& p) {
   const std::size_t n = p.size() - 1;
+  Vec spread;
+  for (const Vertex& x : p) {
+    spread.push_back(0);
+    for (const Vertex& y : p) spread.back() += dot(minus(y.w, x.w), minus(y.w, x.w));
+  }
+  const std::size_t base = static_cast<std::size_t>(std::min_element(spread.begin(), spread.end()) - spread.begin());
   std::vector<Vec> e, rows;
-  for (std::size_t i = 0; i < n; ++i) e.push_back(minus(p[i + 1].w, p[0].w));
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (i != base) e.push_back(minus(p[i].w, p[base].w));
   for (std::size_t i = 0; i < n; ++i) {
     for (rows.emplace_back(); rows[i].size() < n;) rows[i].push_back(dot(e[i], e[rows[i].size()]));
-    rows[i].push_back(-dot(e[i], p[0].w));
+    rows[i].push_back(-dot(e[i], p[base].w));
   }
   for (std::size_t c = 0; c < n; ++c) {
     for (std::size_t r = c + 1; r < n; ++r)
@@ -66,8 +74,9 @@ static Vec affine_weights(const Corners& p) {
     for (std::size_t r = 0; r < n; ++r)
       if (r != c) rows[r] = plus(rows[r], -rows[r][c] / rows[c][c], rows[c]);
   }
-  Vec weights(1, 1.0);
-  for (std::size_t i = 0; i < n; ++i) weights.push_back(rows[i][n] / rows[i][i]), weights[0] -= weights.back();
+  Vec weights;
+  for (std::size_t i = 0; i < n; ++i) weights.push_back(rows[i][n] / rows[i][i]);
+  weights.insert(weights.begin() + static_cast<std::ptrdiff_t>(base), 1 - std::accumulate(weights.begin(), weights.end(), 0.0));
   return weights;
 }
 /// The part of the simplex nearest the origin. Tries every part; slow, and never wrong.
@@ -104,18 +113,79 @@ static Nearest gjk(Solver& solver, double tolerance) {
 }
 
 // --- EPA -----------------------------------------------------------------------------------------------------------------
-/// `normal`: unit, away from a point inside; empty when the face has no area.
-struct Face { Corners corners; Vec normal; double distance = 0; };
-static Face make_face(const Corners& c, const Vec& inside) {
-  Vec n(1, 1.0);
-  if (c.size() == 2) n = {c[1].w[1] - c[0].w[1], c[0].w[0] - c[1].w[0]};
-  if (c.size() == 3) {
-    const Vec x = minus(c[1].w, c[0].w), y = minus(c[2].w, c[0].w);
-    n = {x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]};
+/// A number without rounding: the sum of its parts, the smallest first, none of which shares a bit with another (Shewchuk 1997). The sum and the product
+/// of two doubles are two doubles: the rounded one, and what it was rounded by.
+struct Exact {
+  std::vector<double> parts;
+  void add(double x) {
+    for (double& part : parts) {
+      const double sum = x + part, of_part = sum - x, lost = (x - (sum - of_part)) + (part - of_part);
+      part = lost, x = sum;
+    }
+    parts.push_back(x);
+    parts.erase(std::remove(parts.begin(), parts.end(), 0.0), parts.end());
   }
-  if (length(n) == 0) return {c, {}, 0};
-  n = scaled((dot(n, minus(c[0].w, inside)) > 0 ? 1 : -1) / length(n), n);
-  return {c, n, dot(n, c[0].w)};
+  double rounded() const { return std::accumulate(parts.begin(), parts.end(), 0.0); }
+  int sign() const { return parts.empty() ? 0 : parts.back() > 0 ? 1 : -1; }
+};
+static Exact operator-(Exact x, const Exact& y) {
+  for (const double part : y.parts) x.add(-part);
+  return x;
+}
+static Exact operator*(const Exact& x, const Exact& y) {
+  Exact product;
+  for (const double p : x.parts)
+    for (const double q : y.parts) product.add(std::fma(p, q, -(p * q))), product.add(p * q);
+  return product;
+}
+using ExactVec = std::vector<Exact>;
+static Exact dot(const ExactVec& x, const ExactVec& y) {
+  Exact sum;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (const double part : (x[i] * y[i]).parts) sum.add(part);
+  return sum;
+}
+/// x - y, times a power of two: where the lengths are near 1, products of them lose no bits below the smallest double.
+static ExactVec difference(const Vec& x, const Vec& y, int exponent) {
+  ExactVec out(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) out[i].add(std::ldexp(x[i], exponent)), out[i].add(-std::ldexp(y[i], exponent));
+  return out;
+}
+
+/// `normal`: unit, away from a point inside; `exact_normal`: of any length, without rounding. Of the slivers that thin shapes lead to a normal from
+/// rounded differences may be any.
+struct Face { Corners corners; Vec normal; double distance = 0; ExactVec exact_normal; };
+static Face make_face(const Corners& c, const Vec& inside, int exponent) {
+  ExactVec n(1, Exact{{1.0}});
+  if (c.size() > 1) {
+    const ExactVec x = difference(c[1].w, c[0].w, exponent), y = difference(c.back().w, c[0].w, exponent);
+    const auto cross = [&](int i, int j) { return x[i] * y[j] - x[j] * y[i]; };
+    if (c.size() == 2) n = {x[1], Exact() - x[0]};
+    else n = {cross(1, 2), cross(2, 0), cross(0, 1)};
+  }
+  if (dot(n, difference(c[0].w, inside, exponent)).sign() < 0)
+    for (Exact& x : n) x = Exact() - x;
+  Vec unit;
+  for (const Exact& x : n) unit.push_back(x.rounded());
+  unit = scaled(1 / std::abs(*std::max_element(unit.begin(), unit.end(), [](double x, double y) { return std::abs(x) < std::abs(y); })), unit);
+  unit = scaled(1 / length(unit), unit);
+  return {c, unit, dot(unit, c[0].w), n};
+}
+/// Whether w lies on an edge's line, but for 1e-14 of the lengths: with |x|^2 |y|^2 - (x . y)^2 the square of the triangle's area, twice.
+static bool in_line(const Vertex& w, const Corners& edge, int exponent) {
+  const ExactVec x = difference(w.w, edge[0].w, exponent), y = difference(w.w, edge[1].w, exponent);
+  const Exact xx = dot(x, x), yy = dot(y, y), xy = dot(x, y);
+  const double longest = std::max(xx.rounded(), yy.rounded());
+  return (xx * yy - xy * xy).rounded() <= 1e-28 * longest * longest;
+}
+/// Whether w lies beyond the face, or in its plane: told without rounding where that might decide. So the faces seen are always one disc with one rim,
+/// and no new face is without area: w on the line of an edge takes away the faces on both sides of it.
+static bool sees(const Vertex& w, const Face& f, double rounding, int exponent) {
+  const double height = dot(f.normal, w.w) - f.distance;
+  if (std::abs(height) > rounding) return height > 0;
+  if (dot(f.exact_normal, difference(w.w, f.corners[0].w, exponent)).sign() >= 0) return true;
+  const auto edges = f.corners.size() == 3 ? combinations(f.corners, 2) : std::vector<Corners>();
+  return std::any_of(edges.begin(), edges.end(), [&](const Corners& edge) { return in_line(w, edge, exponent); });
 }
 /// Vertices until they span the space. False, and the direction across, when A - B is flat.
 static bool complete(Solver& solver, Corners& points, const Corners& simplex, Vec& across) {
@@ -159,8 +229,10 @@ static Depth epa(Solver& solver, const Corners& simplex, double tolerance) {
   Vec inside(dimension, 0.0);
   double rounding = 0, height = 0;
   for (const Vertex& x : points) inside = plus(inside, 1.0 / static_cast<double>(points.size()), x.w), rounding = std::max(rounding, 1e-14 * length(x.w));
+  // `rounding`: of a point's height above a plane, for its normal's numbers are right to the last bits.
+  const int exponent = -std::ilogb(rounding / 1e-14);
   std::vector<Face> faces;
-  for (const Corners& c : combinations(points, dimension)) faces.push_back(make_face(c, inside));
+  for (const Corners& c : combinations(points, dimension)) faces.push_back(make_face(c, inside, exponent));
   Face face;
   while (true) {
     std::vector<std::vector<int>> lists;
@@ -170,14 +242,12 @@ static Depth epa(Solver& solver, const Corners& simplex, double tolerance) {
     solver.face(numbers(face.corners), face.normal, face.distance);
     const Vertex w = solver.support(face.normal);
     height = dot(face.normal, w.w);
-    bool stop = height - face.distance <= std::max(tolerance * height, rounding) || faces.size() > 600;
-    for (const Face& f : faces)
-      for (const Vertex& x : f.corners) stop = stop || x.w == w.w;
-    if (stop) break;
+    rounding = std::max(rounding, 1e-14 * length(w.w));
+    if (height - face.distance <= std::max(tolerance * height, rounding) || faces.size() > 600) break;
     std::map<std::vector<int>, Corners> horizon;  // what belongs to one removed face only
     std::vector<Face> kept;
     for (const Face& f : faces) {
-      const bool seen = dot(f.normal, w.w) > f.distance + rounding;
+      const bool seen = sees(w, f, rounding, exponent);
       if (!seen) kept.push_back(f);
       for (const Corners& ridge : seen ? combinations(f.corners, dimension - 1) : std::vector<Corners>()) {
         std::vector<int> key = numbers(ridge);
@@ -187,10 +257,8 @@ static Depth epa(Solver& solver, const Corners& simplex, double tolerance) {
     }
     for (auto& [key, ridge] : horizon) {
       ridge.push_back(w);
-      kept.push_back(make_face(ridge, inside));
-      stop = stop || kept.back().normal.empty();
+      kept.push_back(make_face(ridge, inside, exponent));
     }
-    if (stop) break;
     faces = kept;
   }
   // The origin's projection on the plane, as a combination of the corners of the face that holds it.

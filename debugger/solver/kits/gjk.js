@@ -54,10 +54,12 @@ function combinations(list, size) {
 
 // --- GJK: the nearest part of a simplex ---------------------------------------------------------------------------------
 /** Weights of the point nearest the origin in the flat through the points, or null when they do not span it.
- *  With p0 + sum t_i e_i, e_i = p_i - p0, the nearest has e_j . (p0 + sum t_i e_i) = 0 for all j: solved by elimination. */
+ *  With p0 + sum t_i e_i, e_i = p_i - p0, the nearest has e_j . (p0 + sum t_i e_i) = 0 for all j: solved by elimination. p0 is the point that is
+ *  nearest to the others: of a sliver's two long sides the products would lose what sets them apart. */
 function affineWeights(points) {
-  const e = points.slice(1).map((p) => minus(p, points[0])), n = e.length;
-  const rows = e.map((x) => [...e.map((y) => dot(x, y)), -dot(x, points[0])]);
+  const spread = points.map((p) => points.reduce((sum, q) => sum + dot(minus(q, p), minus(q, p)), 0)), k = spread.indexOf(Math.min(...spread));
+  const e = points.filter((_, i) => i !== k).map((p) => minus(p, points[k])), n = e.length;
+  const rows = e.map((x) => [...e.map((y) => dot(x, y)), -dot(x, points[k])]);
   for (let c = 0; c < n; ++c) {
     let best = c;
     for (let r = c; r < n; ++r) if (Math.abs(rows[r][c]) > Math.abs(rows[best][c])) best = r;
@@ -67,7 +69,7 @@ function affineWeights(points) {
       if (r !== c) rows[r] = minus(rows[r], scaled(rows[r][c] / rows[c][c], rows[c]));
   }
   const t = rows.map((row, i) => row[n] / row[i]);
-  return [1 - t.reduce((x, y) => x + y, 0), ...t];
+  return [...t.slice(0, k), 1 - t.reduce((x, y) => x + y, 0), ...t.slice(k)];
 }
 
 /** The part of the simplex nearest the origin. Tries every part; slow, and never wrong. */
@@ -123,23 +125,54 @@ function complete(simplex, dimension) {
   return { points };
 }
 
-/** A face with its unit normal away from `inside` and its distance from the origin; null when it has no area. */
+/** Without rounding: every double is an integer times 2^-1074. */
+const view = new DataView(new ArrayBuffer(8));
+function exact(x) {
+  return x.map((number) => {
+    view.setFloat64(0, number);
+    const bits = view.getBigUint64(0), exponent = (bits >> 52n) & 2047n, fraction = bits & (2n ** 52n - 1n);
+    const size = exponent === 0n ? fraction : (fraction + 2n ** 52n) << (exponent - 1n);
+    return bits >> 63n ? -size : size;
+  });
+}
+const exactDot = (x, y) => x.reduce((sum, p, i) => sum + p * y[i], 0n);
+const magnitude = (x) => (x < 0n ? -x : x);
+
+/** A face with its unit normal away from `inside`, its distance from the origin, and the normal of any length without rounding. Of the slivers
+ *  that thin shapes lead to a normal from rounded differences may be any. */
 function makeFace(corners, inside) {
-  const p = corners.map((x) => x.w);
-  let n = p.length === 1 ? [1] : p.length === 2 ? [p[1][1] - p[0][1], p[0][0] - p[1][0]] : null;
+  const p = corners.map((x) => exact(x.w));
+  let n = p.length === 1 ? [1n] : p.length === 2 ? [p[1][1] - p[0][1], p[0][0] - p[1][0]] : null;
   if (!n) {
     const x = minus(p[1], p[0]), y = minus(p[2], p[0]);
     n = [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]];
   }
-  if (length(n) === 0) return null;
-  n = scaled((dot(n, minus(p[0], inside)) > 0 ? 1 : -1) / length(n), n);
-  return { corners, normal: n, distance: dot(n, p[0]) };
+  if (exactDot(n, minus(p[0], exact(inside))) < 0n) n = n.map((x) => -x);
+  const digits = Math.max(...n.map((x) => magnitude(x).toString(16).length)); // the first 30 are enough
+  const long = n.map((x) => Number(x >> BigInt(4 * Math.max(0, digits - 30)))), normal = scaled(1 / length(long), long);
+  return { corners, normal, distance: dot(normal, corners[0].w), exactNormal: n };
+}
+
+/** Whether w lies on an edge's line, but for 1e-14 of the lengths: with |x|^2 |y|^2 - (x . y)^2 the square of the triangle's area, twice. */
+function inLine(w, edge) {
+  const [x, y] = edge.map((p) => minus(exact(w.w), exact(p.w))), xx = exactDot(x, x), yy = exactDot(y, y), xy = exactDot(x, y);
+  const longest = xx > yy ? xx : yy;
+  return (xx * yy - xy * xy) * 10n ** 28n <= longest * longest;
+}
+
+/** Whether w lies beyond the face, or in its plane: told without rounding where that might decide. So the faces seen are always one disc with one
+ *  rim, and no new face is without area: w on the line of an edge takes away the faces on both sides of it. */
+function sees(w, face, rounding) {
+  const height = dot(face.normal, w.w) - face.distance;
+  if (Math.abs(height) > rounding) return height > 0;
+  if (exactDot(face.exactNormal, minus(exact(w.w), exact(face.corners[0].w))) >= 0n) return true;
+  return face.corners.length === 3 && combinations(face.corners, 2).some((edge) => inLine(w, edge));
 }
 
 function epa(simplex, dimension, tolerance) {
   const { points, flat } = complete(simplex, dimension);
   if (flat) return { depth: 0, normal: flat, foot: nearest(simplex) };
-  const rounding = 1e-14 * Math.max(...points.map((x) => length(x.w)));
+  let rounding = 1e-14 * Math.max(...points.map((x) => length(x.w))); // of a point's height above a plane: its normal's numbers are right to the last bits
   const inside = combine(points.map(() => 1 / points.length), points.map((x) => x.w));
   let faces = combinations(points, dimension).map((f) => makeFace(f, inside)), face, height;
   for (;;) {
@@ -148,18 +181,17 @@ function epa(simplex, dimension, tolerance) {
     say({ type: "face", vertices: face.corners.map((x) => x.vertex), normal: face.normal, distance: face.distance });
     const w = support(face.normal);
     height = dot(face.normal, w.w);
-    const known = faces.some((f) => f.corners.some((x) => same(x.w, w.w)));
-    if (height - face.distance <= Math.max(tolerance * height, rounding) || known || faces.length > 600) break;
-    const sees = (f) => dot(f.normal, w.w) > f.distance + rounding, horizon = new Map();
+    rounding = Math.max(rounding, 1e-14 * length(w.w));
+    if (height - face.distance <= Math.max(tolerance * height, rounding) || faces.length > 600) break;
+    const seen = new Set(faces.filter((f) => sees(w, f, rounding))), horizon = new Map();
     // The horizon: what belongs to one removed face only.
-    for (const f of faces.filter(sees))
+    for (const f of seen)
       for (const ridge of combinations(f.corners, dimension - 1)) {
         const key = ridge.map((x) => x.vertex).sort().join();
         if (!horizon.delete(key)) horizon.set(key, ridge);
       }
     const added = [...horizon.values()].map((ridge) => makeFace([...ridge, w], inside));
-    if (added.includes(null)) break;
-    faces = [...faces.filter((f) => !sees(f)), ...added];
+    faces = [...faces.filter((f) => !seen.has(f)), ...added];
   }
   // The origin's projection on the plane, as a combination of the corners of the face that holds it.
   const feet = faces.filter((f) => f.distance <= face.distance + 1e-9 * height).map((f) =>

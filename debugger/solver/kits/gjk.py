@@ -9,6 +9,7 @@ Replace `solve` by yours. All it needs is `support(d)`: the farthest point w of 
 import json
 import sys
 from itertools import combinations
+from math import frexp
 
 # --- The protocol: one JSON message a line ---------------------------------------------------------------------
 
@@ -50,9 +51,11 @@ def across(e, like):
 
 def affine_weights(points):
     """Weights of the point nearest the origin in the flat through the points, or None when they do not span it.
-    With p0 + sum t_i e_i, e_i = p_i - p0, the nearest has e_j . (p0 + sum t_i e_i) = 0 for all j: solved by elimination."""
-    e = [minus(p, points[0]) for p in points[1:]]
-    rows = [[dot(x, y) for y in e] + [-dot(x, points[0])] for x in e]
+    With p0 + sum t_i e_i, e_i = p_i - p0, the nearest has e_j . (p0 + sum t_i e_i) = 0 for all j: solved by elimination. p0 is the point that is
+    nearest to the others: of a sliver's two long sides the products would lose what sets them apart."""
+    k = min(range(len(points)), key=lambda i: sum(dot(e, e) for e in (minus(p, points[i]) for p in points)))
+    e = [minus(p, points[k]) for p in points[:k] + points[k + 1:]]
+    rows = [[dot(x, y) for y in e] + [-dot(x, points[k])] for x in e]
     n = len(rows)
     for c in range(n):
         best = max(range(c, n), key=lambda r: abs(rows[r][c]))
@@ -64,7 +67,7 @@ def affine_weights(points):
                 f = rows[r][c] / rows[c][c]
                 rows[r] = [x - f * y for x, y in zip(rows[r], rows[c])]
     t = [rows[i][n] / rows[i][i] for i in range(n)]
-    return [1 - sum(t)] + t
+    return t[:k] + [1 - sum(t)] + t[k:]
 
 def nearest(simplex):
     """The part of the simplex nearest the origin: (its vertices, its nearest point). Tries every part; slow, and never wrong."""
@@ -128,19 +131,40 @@ def complete(simplex, dimension):
         points.append(best)
     return points, None
 
+def exact(x):
+    """Without rounding: every double is an integer times 2^-1126 (m 2^e, m of 53 bits, e at least -1073), and integers are as long as they have to be."""
+    return [int(m * 2**53) << e + 1073 for m, e in map(frexp, x)]
+
 def plane(vertices, inside):
-    """Unit normal away from `inside`, and distance from the origin."""
-    p = [x.w for x in vertices]
+    """Unit normal away from `inside`, distance from the origin, and the normal of any length without rounding. Of the slivers that thin shapes lead
+    to a normal from rounded differences may be any."""
+    p = [exact(x.w) for x in vertices]
     if len(p) == 3:
         x, y = minus(p[1], p[0]), minus(p[2], p[0])
         n = [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]]
     else:
-        n = [1.0] if len(p) == 1 else [p[1][1] - p[0][1], p[0][0] - p[1][0]]
-    size = length(n)
-    if size == 0:
-        return None
-    n = scaled((1 if dot(n, minus(p[0], inside)) > 0 else -1) / size, n)
-    return n, dot(n, p[0])
+        n = [1] if len(p) == 1 else [p[1][1] - p[0][1], p[0][0] - p[1][0]]
+    if dot(n, minus(p[0], exact(inside))) < 0:
+        n = scaled(-1, n)
+    largest = max(abs(t) for t in n)
+    unit = [t / largest for t in n]
+    unit = scaled(1 / length(unit), unit)
+    return unit, dot(unit, vertices[0].w), n
+
+def in_line(w, edge):
+    """Whether w lies on an edge's line, but for 1e-14 of the lengths: with |x|^2 |y|^2 - (x . y)^2 the square of the triangle's area, twice."""
+    x, y = (minus(exact(w.w), exact(p.w)) for p in edge)
+    return (dot(x, x) * dot(y, y) - dot(x, y) ** 2) * 10**28 <= max(dot(x, x), dot(y, y)) ** 2
+
+def sees(w, face, rounding):
+    """Whether w lies beyond the face, or in its plane: told without rounding where that might decide. So the faces seen are always one disc with one
+    rim, and no new face is without area: w on the line of an edge takes away the faces on both sides of it."""
+    corners, unit, distance, normal = face
+    height = dot(unit, w.w) - distance
+    if abs(height) > rounding:
+        return height > 0
+    above = dot(normal, minus(exact(w.w), exact(corners[0].w)))
+    return above >= 0 or len(corners) == 3 and any(in_line(w, edge) for edge in combinations(corners, 2))
 
 def epa(simplex, dimension, tolerance):
     """(depth, normal, point a, point b)."""
@@ -148,26 +172,24 @@ def epa(simplex, dimension, tolerance):
     if flat:
         kept, _, weights = nearest(simplex)
         return 0.0, flat, combine(weights, [x.a for x in kept]), combine(weights, [x.b for x in kept])
-    rounding = 1e-14 * max(length(x.w) for x in points)
+    rounding = 1e-14 * max(length(x.w) for x in points)  # of a point's height above a plane: its normal's numbers are right to the last bits
     inside = combine([1 / len(points)] * len(points), [x.w for x in points])
     faces = [(list(f),) + plane(f, inside) for f in combinations(points, dimension)]
     while True:
         say(type="polytope", faces=[[x.number for x in f[0]] for f in faces])
-        face, normal, distance = min(faces, key=lambda f: f[2])
+        face, normal, distance, _ = min(faces, key=lambda f: f[2])
         say(type="face", vertices=[x.number for x in face], normal=normal, distance=distance)
         w = support(normal)
         height = dot(normal, w.w)
-        known = any(w.w == x.w for f in faces for x in f[0])
-        if height - distance <= max(tolerance * height, rounding) or known or len(faces) > 600:
+        rounding = max(rounding, 1e-14 * length(w.w))
+        if height - distance <= max(tolerance * height, rounding) or len(faces) > 600:
             break
-        seen = [f for f in faces if dot(f[1], w.w) > f[2] + rounding]
+        seen = [f for f in faces if sees(w, f, rounding)]
         # The horizon: what belongs to one removed face only.
         ridges = [tuple(sorted(r, key=lambda x: x.number)) for f in seen for r in combinations(f[0], dimension - 1)]
         horizon = [r for r in ridges if ridges.count(r) == 1]
         new = [list(r) + [w] for r in horizon]
         planes = [plane(f, inside) for f in new]
-        if None in planes:
-            break
         faces = [f for f in faces if f not in seen] + [(f,) + p for f, p in zip(new, planes)]
     # The origin's projection on the plane, as a combination of the corners of the face that holds it.
     candidates = [foot(f[0], normal, distance) for f in faces if f[2] <= distance + 1e-9 * height]
