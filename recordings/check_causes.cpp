@@ -97,10 +97,10 @@ void CheckContext::tell_what_to_report(Finding& root) const {
 /// What was to stop, and then ends by itself with the right answer, has cost time and no more.
 void CheckContext::soften_what_only_costs() {
   const Result& r = recording.result;
-  if (!foreign(recording) || r.status.empty() || r.status == "iteration_limit" || unanswered(r)) return;
+  if (r.status.empty() || r.status == "iteration_limit" || unanswered(r)) return;
   if (std::any_of(findings_.begin(), findings_.end(), [&](const Finding& f) { return f.severity == Finding::Severity::error && !costs_.contains(f.code); })) return;
   for (Finding& f : findings_) {
-    if (!costs_.contains(f.code)) continue;
+    if (!(foreign(recording) ? costs_ : stalls_).contains(f.code)) continue;
     f.severity = Finding::Severity::warning;
     for (const std::string_view endless : {"the search will never end", "EPA will never end", "it will never end"})
       if (const std::size_t at = f.message.find(endless); at != std::string::npos) f.message.replace(at, endless.size(), "nothing is gained by it");
