@@ -196,25 +196,33 @@ std::vector<ContactPoint> behind(const Points& clipped, const AnyVector& r0, con
   return contacts;
 }
 
+/// Of a hull the face that looks along the normal best need not be one at the corner that lies deepest: then the witness points are a contact, too. `known`: what the depth may be off by.
+std::vector<ContactPoint> with_deepest(std::vector<ContactPoint> contacts, const std::vector<ContactPoint>& witness, double known) {
+  const auto deep = [&](const ContactPoint& c) { return c.depth >= witness[0].depth - known; };
+  if (std::none_of(contacts.begin(), contacts.end(), deep)) contacts.push_back(witness[0]);
+  return contacts;
+}
+
 }  // namespace
 
 std::vector<ContactPoint> contact_points(const Body& a, const Body& b, const Result& result) {
   const std::vector<ContactPoint> witness{{*result.witness_a, *result.witness_b, std::max(0.0, -*result.signed_distance)}};
   if (result.status == word_of(EpaStatus::iteration_limit)) return witness;  // the normal is no side's, nor need it come near
-  const AnyVector n = *result.normal;
+  AnyVector n = *result.normal;
+  if (std::abs(n.squaredNorm() - 1) > 1e-12) n.normalize();  // of length 1 in single precision only: sides are told from it by cosines of doubles
   const auto face_a = flat_feature(a, n), face_b = flat_feature(b, -n);
   if (!face_a || !face_b) return witness;
   const bool reference_is_a = face_a->alignment >= face_b->alignment - 1e-12;
   const FlatFeature &reference = reference_is_a ? *face_a : *face_b, &incident = reference_is_a ? *face_b : *face_a;
-  const double size = reference.size + incident.size + reference.radius + incident.radius;
+  const double size = reference.size + incident.size + reference.radius + incident.radius, known = 1e-7 * size + (result.lower_bound && result.upper_bound ? *result.upper_bound - *result.lower_bound : 0);
   if (reference.alignment < alignment_limit) {
     const auto line_a = line_across(*face_a, n), line_b = line_across(*face_b, -n);
     const auto contacts = behind(line_beside_line(line_a, line_b), line_a ? (*line_a)[0] : n, n, face_a->radius, *face_b, size, true);
-    return contacts.empty() ? witness : contacts;
+    return with_deepest(contacts, witness, known);
   }
   const AnyVector outward = reference_is_a ? n : AnyVector(-n), on_face = reference.disc ? AnyVector(reference.disc->center) : reference.points[0];
   const auto contacts = behind(common_outline(incident, reference, outward), on_face, outward, reference.radius, incident, size, reference_is_a);
-  return contacts.empty() ? witness : contacts;
+  return with_deepest(contacts, witness, known);
 }
 
 double least_apart(double size_a, double size_b, double far) {
