@@ -77,7 +77,7 @@ void RecordCheck::judge(const recorded::MprEnded& e) {
   const bool apart = e.status == MprStatus::separated;
   if (e.status != MprStatus::flat && (apart ? e.depth > c_.tolerance : e.depth < -c_.tolerance)) contradiction("MPR ended as \"" + std::string(last_status_) + "\", with a depth of " + text_of(e.depth) + ".");
   // "Overlapping" is known by a portal, or by a vertex that the ray from the inner point hits.
-  const auto on_the_ray = [&] { return interior_.isZero(0) || (newest_w_ - newest_w_.dot(interior_) * interior_).norm() <= 1e-6 * c_.size; };
+  const auto on_the_ray = [&] { return interior_.isZero(0) || (newest_w_ - newest_w_.dot(interior_) * interior_).norm() <= std::max(1e-6, 10 * c_.digits()) * c_.size; };
   const bool hit = portal_ == Portal::none && newest_w_.size() == interior_.size() && on_the_ray();
   if (e.status == MprStatus::overlapping && newest_w_.size() > 0 && !hit && portal_ != Portal::found_last) contradiction("MPR ended as \"overlapping\" without the portal that shows it.");
   lower_ = upper_ = unknowable;
@@ -155,7 +155,7 @@ void RecordCheck::nearest_to(std::size_t body, const AnyVector& point, const Any
   const AnyVector out = from - point;
   if (!c_.has_supports || !c_.cores || !out.allFinite() || !(out.norm() > c_.tolerance)) return;
   const double beyond = c_.short_of_support(body, out.normalized(), point);
-  if (beyond > std::max(c_.tolerance, 1e-7 * c_.size) + c_.digits() * c_.size * c_.size / out.norm())
+  if (beyond > std::max(c_.tolerance, 1e-7 * c_.size) + (c_.digits() * c_.size + c_.world) * c_.size / out.norm())
     contradiction((body == 0 ? "a = " : "b = ") + text_of(point) + " is not the point of body " + std::to_string(body) + " nearest to " + text_of(from) + ": the body reaches " + text_of(beyond) + " farther that way.");
 }
 void RecordCheck::judge(const recorded::ProjectionsBegan& e) { projected_from_ = e.point, plane_ = -unknown, methods_.insert(e.kind); }

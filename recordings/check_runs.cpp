@@ -67,10 +67,10 @@ class Runs {
     tell(frame, *likeliest, run);
   }
 
-  /// Others are not looked at by any run of ours.
+  /// Others are not looked at by any run of ours: those whose centres of mass, which lie within their reach r of their places, are farther apart than both reach from there, up to 2 r.
   bool near(const Frame& frame, const Two& pair) const {
     double reach = 0;
-    for (const int k : pair) reach += 2 * reach_of(c_.recording.scene.scene.bodies[static_cast<std::size_t>(k)].shape, c_.dimension);
+    for (const int k : pair) reach += 3 * reach_of(c_.recording.scene.scene.bodies[static_cast<std::size_t>(k)].shape, c_.dimension);
     return c_.recording.scene.scene.query == Query::cast || (frame.places[static_cast<std::size_t>(pair[0])].position - frame.places[static_cast<std::size_t>(pair[1])].position).norm() <= reach;
   }
   static bool exist(const Two& pair, int bodies) { return pair[0] != pair[1] && std::min(pair[0], pair[1]) >= 0 && std::max(pair[0], pair[1]) < bodies; }
