@@ -73,6 +73,20 @@ struct CastWalk : CastStretch {
     const double gap = gap_at(e.pair, e.time);
     if (std::abs(e.distance - gap) > limit) c.find("wrong-distance", when + " are " + text_of(gap) + " apart, not " + text_of(e.distance) + ".");
     else if (std::abs(along(two, n) - gap) > 10 * limit) c.find("wrong-normal", "Along the normal " + text_of(n) + " the bodies are not the " + text_of(gap) + " apart that they are at time " + text_of(e.time) + ".");
+    else bounded(e, n, gap);
+  }
+
+  /// Until they can meet, at distance / bound from then, they come nearer along n by no more than bound times the time. (From then on the next step tells.)
+  void bounded(const recorded::CastAdvanced& e, const AnyVector& n, double gap) const {
+    if (ray || !(e.bound > 0) || !std::isfinite(e.bound) || !(turns(e.pair[0]) || turns(e.pair[1]))) return;  // of what does not turn the bound is how fast it moves
+    constexpr int samples = 8;
+    const double until = std::min(1 - e.time, gap / e.bound);
+    for (int k = 1; k <= samples && until > 0; ++k) {
+      const double t = until * k / samples, apart = along(at(e.pair, e.time + t), n), least = gap - e.bound * t;
+      if (apart >= least - 10 * limit) continue;
+      return c.find("wrong-bounds", "From time " + text_of(e.time) + " on " + names_of(e.pair) + " are said to come nearer at " + text_of(e.bound) + " at most, which leaves " + text_of(least) + " between them at " + text_of(e.time + t) + ", but along the normal there are " + text_of(apart) +
+                                       ". Points of a body that turns move at up to |w| times their distance from its centre, and faster towards the other body later on than now.");
+    }
   }
 
   /// Along n the bodies come nearer by (vA - vB) . n, and by no more than |w| times their reach where they turn.

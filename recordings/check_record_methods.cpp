@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "algo/motion.h"
 #include "recordings/check_record.h"
+#include "shapes/features.h"
 
 namespace gjkdbg {
 namespace {
@@ -85,8 +87,23 @@ void RecordCheck::judge(const recorded::MprEnded& e) {
   lower_ = -height_, upper_ = portal_ == Portal::none || std::isnan(cleared_) ? unknowable : -std::max(0.0, cleared_);
 }
 
+/// Of two boxes opposite faces and parallel edges share their axes; of others there is one for every way that a face faces, and for two edges of different ways.
+void RecordCheck::count_axes(const recorded::SatBegan& e) {
+  const auto& bodies = c_.recording.scene.scene.bodies;
+  if (!c_.has_supports || bodies.size() != 2) return;
+  const std::optional<Features> a = features_of(bodies[0].shape, c_.dimension), b = features_of(bodies[1].shape, c_.dimension);
+  if (!a || !b) return;
+  const auto count = [](const auto& list) { return static_cast<Number>(list.size()); };
+  const std::array<Number, 3> said{e.faces_a, e.faces_b, e.edge_pairs}, of_all{count(a->face_normals), count(b->face_normals), count(a->edges) * count(b->edges)};
+  const std::array<Number, 3> of_boxes{c_.dimension, c_.dimension, c_.dimension == 3 ? 9 : 0};
+  const bool boxes = std::holds_alternative<Box>(bodies[0].shape.geometry) && std::holds_alternative<Box>(bodies[1].shape.geometry);
+  if (said == of_all || (boxes && said == of_boxes)) return;
+  const auto told = [](const std::array<Number, 3>& n) { return std::to_string(n[0]) + " and " + std::to_string(n[1]) + " faces and " + std::to_string(n[2]) + " pairs of edges"; };
+  contradiction("SAT is said to have " + told(said) + " to look along; the bodies have " + told(boxes ? of_boxes : of_all) + ".");
+}
+
 /// A pair of edges of which one has no faces beside it is an axis both ways.
-void RecordCheck::judge(const recorded::SatBegan& e) { methods_.insert(e.kind), axes_ = {e.faces_a, e.faces_b, 2 * Number{e.edge_pairs}}, plane_ = -unknown, nearest_projected_.reset(); }
+void RecordCheck::judge(const recorded::SatBegan& e) { count_axes(e), methods_.insert(e.kind), axes_ = {e.faces_a, e.faces_b, 2 * Number{e.edge_pairs}}, plane_ = -unknown, nearest_projected_.reset(); }
 void RecordCheck::judge(const recorded::AxisTested& e) {
   leads_on(e.direction, axis_, "its support");
   if (e.vertex != newest_) contradiction("Vertex " + std::to_string(e.vertex) + " is said to be the farthest along the axis, but the last one asked for is " + std::to_string(newest_) + ".");
