@@ -28,7 +28,7 @@ class Runs {
   };
   struct Candidate {
     Two pair, triangles;
-    bool fits;  ///< all supports are supports of these bodies
+    std::size_t until;  ///< the first step that there is something to find in, if it were these
   };
   static constexpr int enough = 8;  ///< runs with findings: a wrong one is looked at with every pair and triangle
 
@@ -109,16 +109,16 @@ class Runs {
     return all;
   }
 
-  /// Whether there is nothing to find in the run, taken for one of these two bodies. Else the first that all supports fit is the likeliest, or the first of all.
+  /// Whether there is nothing to find in the run, taken for one of these two bodies. Else those are the likeliest that it fits longest, or the first of all.
   bool clean(const Frame& frame, const Two& pair, const Part& part, std::optional<Candidate>& likeliest) const {
     for (const Two& triangles : triangles_of(frame, pair, part.first)) {
-      Candidate one{pair, triangles, true};
+      Candidate one{pair, triangles, 0};
       Recording run = run_of(frame, one);
       run.events.assign(events_.begin() + static_cast<std::ptrdiff_t>(part.first), events_.begin() + static_cast<std::ptrdiff_t>(part.last));
       const std::vector<Finding> found = check_steps(run, 0);
       if (found.empty()) return true;
-      one.fits = std::none_of(found.begin(), found.end(), [](const Finding& f) { return f.code == "wrong-support"; });
-      if (!likeliest || (one.fits && !likeliest->fits)) likeliest = one;
+      one.until = found.front().step;
+      if (!likeliest || one.until > likeliest->until) likeliest = one;
     }
     return false;
   }

@@ -80,7 +80,8 @@ struct Nearly {
   double turned_by_rounding(double v) const { return known_to() / v * c.size; }
   double known_to() const { return 64 * (single ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon()) * c.size; }
   /// What it leaves open of a sliver, if that is what the search ended with.
-  double of_last_simplex() const {
+  double of_last_simplex() const { return c.rounding_of(last_simplex()); }
+  std::vector<AnyVector> last_simplex() const {
     std::vector<AnyVector> w;
     for (const Event& event : c.recording.events)
       if (const auto* e = std::get_if<recorded::SimplexReduced>(&event)) {
@@ -88,7 +89,12 @@ struct Nearly {
         for (const int number : e->region)
           if (const auto found = c.vertices.find(number); found != c.vertices.end()) w.push_back(found->second);
       }
-    return c.rounding_of(w);
+    return w;
+  }
+  /// Of round bodies: whether the last simplex is as far from the origin as their radii reach, to what v is known to. Either answer is right then.
+  bool radii_reach() const {
+    const std::vector<AnyVector> w = last_simplex();
+    return c.radius > 0 && !w.empty() && std::abs(nearest_point(w).v.norm() - c.radius) <= known_to();
   }
 
   /// How far the last simplex that was told is from the origin; 0 where none was, and where it is farther than what may be taken for touching. One that holds the origin to rounding has
@@ -114,7 +120,7 @@ struct Nearly {
   void apart(double rounding, bool overlap) const {
     const double measured = r.signed_distance.value_or(0);
     if (measured > 0 && measured <= *right.upper_bound + rounding) return;  // as far apart as they are, to rounding
-    if (best_plane > c.radius) return;
+    if (best_plane > c.radius || radii_reach()) return;
     double least = std::numeric_limits<double>::infinity();
     for (const Event& event : c.recording.events) {
       const auto* q = std::get_if<recorded::SupportQueried>(&event);
