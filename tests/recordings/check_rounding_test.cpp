@@ -144,6 +144,11 @@ TEST(CheckRounding, HowManyAxesThereAre) {
   }
 }
 
+TEST(CheckRounding, ASumOfBoxesIsABox) {
+  const std::string sum = R"({"type": "sum", "of": [{"type": "box", "half_extents": [1, 1]}, {"type": "box", "half_extents": [0.5, 0.25]}]})";
+  EXPECT_EQ(said_of(run_of((R"({"format": "gjk-scene", "version": 1, "dimension": 2, "bodies": [{"shape": )" + sum + "}, {\"shape\": " + sum + R"(, "pose": {"position": [2, 0.5]}}], "method": {"name": "sat"}})").c_str())), "");
+}
+
 TEST(CheckRounding, BodiesThatTurnComeNearerThanTheBoundLets) {
   const Recording right = record(read_scene(read_gallery(GJKDBG_GALLERY).file("cast-rotating-rod")));
   ASSERT_EQ(said_of(right), "");
