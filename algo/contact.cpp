@@ -197,8 +197,11 @@ std::vector<ContactPoint> behind(const Points& clipped, const AnyVector& r0, con
   return contacts;
 }
 
-/// Empty: the witness points are all there is.
-std::vector<ContactPoint> shared_points(const Body& a, const Body& b, const AnyVector& n) {
+struct SharedPoints {
+  std::vector<ContactPoint> contacts;  ///< empty: the witness points are all there is
+  double size = 0;                     ///< of the features they lie on
+};
+SharedPoints shared_points(const Body& a, const Body& b, const AnyVector& n) {
   const auto face_a = flat_feature(a, n), face_b = flat_feature(b, -n);
   if (!face_a || !face_b) return {};
   const bool reference_is_a = face_a->alignment >= face_b->alignment - 1e-12;
@@ -206,31 +209,37 @@ std::vector<ContactPoint> shared_points(const Body& a, const Body& b, const AnyV
   const double size = reference.size + incident.size + reference.radius + incident.radius;
   if (reference.alignment < alignment_limit) {
     const auto line_a = line_across(*face_a, n), line_b = line_across(*face_b, -n);
-    return behind(line_beside_line(line_a, line_b), line_a ? (*line_a)[0] : n, n, face_a->radius, *face_b, size, true);
+    return {behind(line_beside_line(line_a, line_b), line_a ? (*line_a)[0] : n, n, face_a->radius, *face_b, size, true), size};
   }
   const AnyVector outward = reference_is_a ? n : AnyVector(-n), on_face = reference.disc ? AnyVector(reference.disc->center) : reference.points[0];
-  return behind(common_outline(incident, reference, outward), on_face, outward, reference.radius, incident, size, reference_is_a);
+  return {behind(common_outline(incident, reference, outward), on_face, outward, reference.radius, incident, size, reference_is_a), size};
+}
+
+/// In units in which products of lengths are numbers, from body 0's place on: in them the way to the world's origin need be none.
+SharedPoints shared_in_units(const Body& a, const Body& b, const AnyVector& n, double scale) {
+  Body here = a, there = b;
+  here.shape = scaled(a.shape, scale), here.pose.position *= 0;
+  there.shape = scaled(b.shape, scale), there.pose.position = (b.pose.position - a.pose.position) * scale;
+  SharedPoints shared = shared_points(here, there, n);
+  for (ContactPoint& c : shared.contacts) c = {a.pose.position + c.point_a / scale, a.pose.position + c.point_b / scale, c.depth / scale};
+  shared.size /= scale;
+  return shared;
 }
 
 }  // namespace
 
 std::vector<ContactPoint> contact_points(const Body& a, const Body& b, const Result& result) {
-  std::vector<ContactPoint> contacts;
+  const ContactPoint witness{*result.witness_a, *result.witness_b, std::max(0.0, -*result.signed_distance)};
+  if (result.status == word_of(EpaStatus::iteration_limit)) return {witness};  // the normal is no side's, nor need it come near
+  AnyVector n = *result.normal;
+  if (std::abs(n.squaredNorm() - 1) > 1e-12) n.normalize();  // of length 1 in single precision only: sides are told from it by cosines of doubles
   const double scale = working_scale<double>(a, b);
-  if (result.status == word_of(EpaStatus::iteration_limit)) {
-    // The normal is no side's, nor need it come near.
-  } else if (scale == 1) {
-    contacts = shared_points(a, b, *result.normal);
-  } else {
-    // In units in which products of lengths are numbers, from body 0's place on: in them the way to the world's origin need be none.
-    Body here = a, there = b;
-    here.shape = scaled(a.shape, scale), here.pose.position *= 0;
-    there.shape = scaled(b.shape, scale), there.pose.position = (b.pose.position - a.pose.position) * scale;
-    contacts = shared_points(here, there, *result.normal);
-    for (ContactPoint& c : contacts) c = {a.pose.position + c.point_a / scale, a.pose.position + c.point_b / scale, c.depth / scale};
-  }
-  if (contacts.empty()) contacts = {{*result.witness_a, *result.witness_b, std::max(0.0, -*result.signed_distance)}};
-  return contacts;
+  SharedPoints shared = scale == 1 ? shared_points(a, b, n) : shared_in_units(a, b, n, scale);
+  // Of a hull the face that looks along the normal best need not be one at the corner that lies deepest: then the witness points are a contact, too.
+  const double known = 1e-7 * shared.size + (result.lower_bound && result.upper_bound ? *result.upper_bound - *result.lower_bound : 0);  // what the depth may be off by
+  const auto deep = [&](const ContactPoint& c) { return c.depth >= witness.depth - known; };
+  if (std::none_of(shared.contacts.begin(), shared.contacts.end(), deep)) shared.contacts.push_back(witness);
+  return shared.contacts;
 }
 
 double least_apart(double size_a, double size_b, double far) {

@@ -94,17 +94,18 @@ void CheckContext::tell_what_to_report(Finding& root) const {
   else if (of_the_depth) root.message += " Of the search for the depth nothing was reported: report EPA's polytope and the faces chosen, and the step that goes wrong can be named.";
 }
 
-/// What was to stop, and then ends by itself with the right answer, has cost time and no more.
+/// What was to stop, and then ends by itself with the right answer, has cost time and no more. Of ours that is known where rounding alone led it round, whatever ended it: a limit says so itself.
 void CheckContext::soften_what_only_costs() {
   const Result& r = recording.result;
-  if (!foreign(recording) || r.status.empty() || r.status == "iteration_limit" || unanswered(r)) return;
+  const bool ended = !r.status.empty() && r.status != "iteration_limit" && !unanswered(r);
+  if (foreign(recording) && !ended) return;
   if (std::any_of(findings_.begin(), findings_.end(), [&](const Finding& f) { return f.severity == Finding::Severity::error && !costs_.contains(f.code); })) return;
   for (Finding& f : findings_) {
-    if (!costs_.contains(f.code)) continue;
+    if (!(foreign(recording) ? costs_ : stalls_).contains(f.code)) continue;
     f.severity = Finding::Severity::warning;
     for (const std::string_view endless : {"the search will never end", "EPA will never end", "it will never end"})
       if (const std::size_t at = f.message.find(endless); at != std::string::npos) f.message.replace(at, endless.size(), "nothing is gained by it");
-    f.message += " It ended all the same, and with the right answer: here it merely costs.";
+    if (ended) f.message += " It ended all the same, and with the right answer: here it merely costs.";
   }
 }
 

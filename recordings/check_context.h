@@ -42,6 +42,9 @@ class CheckContext {
   double stop = 1e-6;                 ///< relative: how far apart the bounds may be when a phase says it has converged
   bool has_supports = false;          ///< false for meshes: then only what the recording itself holds is judged
   bool cores = true;                  ///< whether the recorded vertices are those of the cores, or of the whole bodies
+  double epsilon() const { return recording.settings.scalar == Scalar::float_precision ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon(); }
+  /// How far off our own methods may find the nearest point of these vertices by rounding alone; 0 of other programs' (see check_rounding.cpp).
+  double rounding_of(const std::vector<AnyVector>& points) const;
   double digits() const { return recording.settings.scalar == Scalar::float_precision ? 1e-6 : 1e-14; }  ///< what rounding leaves of a length, relative
   double radius = 0;                  ///< between the recorded vertices' difference and the bodies
   std::string unkept;                 ///< where GJK ended apart: what it had in hand and did not keep, though it is nearer; a sentence
@@ -80,6 +83,10 @@ class CheckContext {
   void find(const char* code, const std::string& message, Finding::Severity severity = Finding::Severity::error);
   /// Of a search that was to stop: where it ends by itself, with the right answer, a warning.
   void find_cost(const char* code, const std::string& message);
+  /// The same of a search that went round without coming nearer by more than rounding tells: of our own it is a warning, too.
+  void find_stall(const char* code, const std::string& message);
+  /// What rounding may have done, to our own: harmless by itself, the likely cause where the answer is wrong.
+  void find_unless(bool rounding, const char* code, const std::string& message) { rounding ? suspect(code, message) : find(code, message); }
   /// A warning that is given up where something else is told by this code.
   void mention(const char* code, const std::string& message) { mentioned_.push_back({step, Finding::Severity::warning, code, message}); }
   /// What is harmless by itself, but the likely cause where an answer is wrong later on. The first counts; where the claim of an overlap is wrong, only one of
@@ -127,7 +134,7 @@ class CheckContext {
   std::optional<Result> reference_;
   std::vector<Finding> findings_;
   std::vector<Finding> mentioned_;
-  std::set<std::string> seen_, explained_, costs_;
+  std::set<std::string> seen_, explained_, costs_, stalls_;
   std::optional<Finding> suspicion_, last_suspicion_, doubt_, short_, reset_;
   int resets_ = 0;
 };
@@ -246,6 +253,13 @@ class GjkCheck {
   int queries_ = 0;
   int stuck_ = 0;  ///< how often the search went on although nothing had changed
   double best_plane_ = -1e300;
+  bool no_nearer_since(std::size_t step);
+  struct Reached {
+    std::size_t step;
+    AnyVector v;
+    double rounding;  ///< how far off v may be
+  };
+  std::vector<Reached> reached_;  ///< by each simplex
   std::map<std::string, std::size_t> regions_;
   std::string last_region_;
   std::optional<std::size_t> repeated_from_, repeated_at_;

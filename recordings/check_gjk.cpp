@@ -18,6 +18,8 @@ std::string key_of(const AnyVector& v) {
   return key;
 }
 
+constexpr const char* on_the_spot = "Nothing in between is nearer the origin, by more than rounding tells: stop when |v| no longer falls.";
+
 }  // namespace
 
 std::optional<Repetition::Found> Repetition::add(const AnyVector& direction, std::size_t step) {
@@ -87,8 +89,7 @@ void GjkCheck::check_towards_origin(const AnyVector& direction) {
   }
   // The nearest point is no more exact than its vertices are.
   const bool single = c_.recording.settings.scalar == Scalar::float_precision;
-  const double rounding = single ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon();
-  if (worst > std::max(single ? 1e-2 : 1e-4, 64 * rounding * c_.size / v.norm()))
+  if (worst > std::max({single ? 1e-2 : 1e-4, 64 * c_.epsilon() * c_.size / v.norm(), c_.rounding_of(w) / v.norm()}))
     c_.find("direction-not-perpendicular", "The direction " + text_of(direction) + " is not perpendicular to the feature that was kept (cosine with an edge " + text_of(worst) + "), though it leads towards the origin. Expected is " +
                                                text_of(AnyVector(-v)) + " or a multiple." + std::string(CheckContext::harmless),
             Finding::Severity::warning);
@@ -102,14 +103,17 @@ bool GjkCheck::first_negated(const AnyVector& direction) const {
 /// A query that leaves the simplex as it was is the end, unless the nearest point was put more exactly and the direction has turned. Jolt's rule
 /// compares |v|^2 with that of the step before: it asks on until that no longer falls at all.
 void GjkCheck::check_progress(const recorded::SupportQueried& e) {
+  const bool by_rounding = last_direction_.size() > 0 && e.direction != last_direction_;  // the nearest point was put anew, to the last digit
   const bool same_direction = last_direction_.size() > 0 && (e.direction - last_direction_).stableNorm() <= 1e-12 * e.direction.stableNorm();
   last_direction_ = e.direction;
   if (!repeated_at_ || !pending_.empty() || !same_direction || c_.recording.settings.stopping == Stopping::jolt) return;
+  if (by_rounding && stuck_ == 0 && !foreign(c_.recording)) return void(++stuck_);  // one more support was due to the new digits
+  const auto find = by_rounding ? &CheckContext::find_stall : &CheckContext::find_cost;
   if (stuck_++ == 0)
-    c_.find_cost("no-progress", "The support before left the simplex " + list_of(simplex_) + " of step " + std::to_string(*repeated_from_) + " as it was: nothing nearer the origin exists. The search goes on all the same, in the same direction. "
+    (c_.*find)("no-progress", "The support before left the simplex " + list_of(simplex_) + " of step " + std::to_string(*repeated_from_) + " as it was: nothing nearer the origin exists. The search goes on all the same, in the same direction. "
                            "Stop when |v|^2 - v . w is small beside |v|^2.");
   else
-    c_.find_cost("cycle", "The simplex " + list_of(simplex_) + " of step " + std::to_string(*repeated_at_) + " is that of step " + std::to_string(*repeated_from_) +
+    (c_.*find)("cycle", "The simplex " + list_of(simplex_) + " of step " + std::to_string(*repeated_at_) + " is that of step " + std::to_string(*repeated_from_) +
                          " again, and the search goes on as it did then: it will never end. Stop when a support is no farther along d than the simplex.");
 }
 
@@ -118,7 +122,9 @@ void GjkCheck::check_repetition(const AnyVector& direction) {
   if (!found) return;
   const std::string said = "The direction " + text_of(direction) + (found->period == 1 ? " is" : ", and the " + std::to_string(found->period - 1) + " before it, are") + " searched for the fourth time running, as from step " +
                            std::to_string(found->first_step) + " on: the same supports come back, and the search will never end. ";
-  if (lost_its_way(found->period))
+  if (!reached_.empty() && no_nearer_since(found->first_step))
+    c_.find_stall("cycle", said + on_the_spot);
+  else if (lost_its_way(found->period))
     c_.find("cycle", said + "Each of them lies farther along its direction than the one before, so no stopping test would have been right to end it: |v| must fall in every step. The usual cause is a region test that drops a vertex the nearest part needs, or a simplex that is cleared.");
   else
     c_.find_cost("cycle", said + "Stop when a support is no farther along d than the simplex.");
@@ -204,7 +210,7 @@ void GjkCheck::check_region(const recorded::SimplexReduced& e) {
   const bool starts = c_.inferred && !reported_ && pending_.size() > 1 && e.region.size() < pending_.size();
   const std::string message = "Of " + list_of(before) + " the part " + list_of(e.region) + " was kept, whose nearest point is " + text_of(v.norm()) + " from the origin. The part " + list_of(right) + " comes as near as " +
                               text_of(best.v.norm()) + ". The usual cause is a region test with a flipped sign, or one made before the vertices were reordered.";
-  starts ? c_.suspect("wrong-region", message) : c_.find("wrong-region", message);
+  c_.find_unless(starts || v.norm() <= best.v.norm() + c_.rounding_of(all), "wrong-region", message);
 }
 
 /// What was kept is the nearest part and nothing else: the point nearest the origin on the plane (line, space) of all that was kept is that of the part.
@@ -245,7 +251,8 @@ void GjkCheck::check_closest(const recorded::SimplexReduced& e) {
     double total = 0, least = 0;
     for (std::size_t i = 0; i < std::min(w.size(), e.barycentric.size()); ++i) sum += e.barycentric[i] * w[i], total += e.barycentric[i], least = std::min(least, e.barycentric[i]);
     if (e.barycentric.size() != w.size() || std::abs(total - 1) > 1e-4 || least < -1e-4 || (sum - e.closest).norm() > limit) {
-      c_.find("wrong-closest", "The weights, which sum to " + text_of(total) + ", make " + text_of(sum) + " of the vertices " + list_of(e.region) + ", but the nearest point is given as " + text_of(e.closest) +
+      const bool well_formed = e.barycentric.size() == w.size() && std::abs(total - 1) <= 1e-4 && least >= -1e-4;
+      c_.find_unless(well_formed && (sum - e.closest).norm() <= c_.rounding_of(w), "wrong-closest", "The weights, which sum to " + text_of(total) + ", make " + text_of(sum) + " of the vertices " + list_of(e.region) + ", but the nearest point is given as " + text_of(e.closest) +
                                    ". Weights are as many as vertices, in their order, none negative, and sum to 1.");
       return;
     }
@@ -256,6 +263,7 @@ void GjkCheck::check_closest(const recorded::SimplexReduced& e) {
   if (c_.of_few_digits(e.closest, right, "The nearest point of " + list_of(e.region))) return;
   const std::string given = "The nearest point of " + list_of(e.region) + " is given as " + text_of(e.closest) + ", " + text_of(e.closest.norm()) + " from the origin; it is " + text_of(right) + ", at " + text_of(nearest) + ".";
   if (c_.found("wrong-closest")) return;
+  if (off <= c_.rounding_of(w)) return c_.suspect("wrong-closest", given + " The simplex is a sliver: rounding has lost it.");
   const std::string lost = c_.lost_far_out(e.region, off);
   if (!lost.empty()) c_.find("wrong-closest", given + lost);
   else if (w.size() == 1 && (e.closest + right).norm() > limit) c_.find("wrong-closest", given + " One vertex has no weights: its nearest point is w itself. The usual cause is the point of an older simplex, or of other coordinates than the support's.");
@@ -279,7 +287,9 @@ void GjkCheck::check_cycle(const std::vector<int>& region) {
   last_region_ = key;
   const bool asks_on = other_between && c_.recording.settings.stopping == Stopping::jolt;  // until |v|^2 no longer falls, were it by rounding
   if (is_new || asks_on || pending_.empty() || nearest_point(vertices).v.norm() <= c_.tolerance) return;
-  if (other_between)
+  if (other_between && no_nearer_since(found->second))
+    c_.find_stall("cycle", "The simplex " + list_of(region) + " is that of step " + std::to_string(found->second) + " again: the search will never end. " + on_the_spot);
+  else if (other_between)
     c_.find("cycle", "The simplex " + list_of(region) + " is that of step " + std::to_string(found->second) + " again: from here on everything repeats, and the search will never end. |v| must fall in every step; the usual cause is a region test that drops a vertex the nearest part needs.");
   else
     repeated_from_ = found->second, repeated_at_ = c_.step;
@@ -296,7 +306,7 @@ bool GjkCheck::begins_again(const recorded::SimplexReduced& e) {
   const double best = nearest_point(all).v.norm(), now = nearest_point(kept).v.norm();
   if (now <= best + c_.tolerance) return false;
   c_.reset("Of the simplex before, " + list_of(simplex_) + ", nothing was kept: " + list_of(e.region) + " is " + text_of(now) + " from the origin, " + list_of(hand) + " comes as near as " + text_of(best) + ".");
-  simplex_.clear(), pending_.clear(), directions_.forget(), regions_.clear(), last_region_.clear(), last_direction_ = AnyVector();
+  simplex_.clear(), pending_.clear(), directions_.forget(), regions_.clear(), reached_.clear(), last_region_.clear(), last_direction_ = AnyVector();
   repeated_from_.reset(), repeated_at_.reset(), stuck_ = 0;  // the planes have proven what they have
   return true;
 }
@@ -323,6 +333,7 @@ void GjkCheck::operator()(const recorded::SimplexReduced& e) {
     check_closest(e);
   else if (!twice && !portals_)
     check_region(e), check_closest(e);
+  if (const AnyVector v = w.empty() || w.size() > 6 ? AnyVector() : nearest_point(w).v; v.size() > 0) reached_.push_back({c_.step, v, std::max(64 * c_.epsilon() * c_.size, c_.rounding_of(w))});
   if (!portals_) check_cycle(e.region);
   reported_ = true;
   simplex_ = e.region, told_v_ = e.closest;

@@ -118,8 +118,9 @@ void GjkCheck::operator()(const recorded::GjkEnded& e) {
     if (!c_.unkept.empty()) cause = c_.unkept;
     c_.find("stopped-early", "GJK ended with its bounds " + text_of(best_plane_ - c_.radius) + " and " + text_of(v - c_.radius) + " of the distance still " + text_of(gap) + " apart: there is a nearer point. " + cause);
   } else if (v > limit && !(c_.inferred && c_.denies_its_distance() && std::abs(v - c_.radius - *c_.recording.result.signed_distance) <= c_.answer_tolerance())) {  // how a solver's search ended is taken from its yes or no
-    if (nearest_point(points(all)).v.norm() > limit)
-      c_.find("origin-not-enclosed", "Overlap is claimed from the simplex " + list_of(last) + ", but the origin lies " + text_of(v) + " outside it." + not_enclosed(last, v));
+    const double lost = c_.rounding_of(points(all));
+    if (const double nearest = nearest_point(points(all)).v.norm(); nearest > limit)
+      c_.find_unless(nearest <= lost, "origin-not-enclosed", "Overlap is claimed from the simplex " + list_of(last) + ", but the origin lies " + text_of(v) + " outside it." + not_enclosed(last, v));
   }
 }
 

@@ -54,6 +54,7 @@ class RecordCheck {
   void judge(const recorded::PolytopeGrown& e);
   void judge(const recorded::EpaEnded& e);
   void judge(const recorded::MprBegan& e);
+  void count_axes(const recorded::SatBegan& e);
   void judge(const recorded::PortalFound& e);
   void judge(const recorded::MprEnded& e);
   void judge(const recorded::SatBegan& e);

@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "algo/motion.h"
 #include "recordings/check_record.h"
+#include "shapes/features.h"
 
 namespace gjkdbg {
 namespace {
@@ -77,7 +79,7 @@ void RecordCheck::judge(const recorded::MprEnded& e) {
   const bool apart = e.status == MprStatus::separated;
   if (e.status != MprStatus::flat && (apart ? e.depth > c_.tolerance : e.depth < -c_.tolerance)) contradiction("MPR ended as \"" + std::string(last_status_) + "\", with a depth of " + text_of(e.depth) + ".");
   // "Overlapping" is known by a portal, or by a vertex that the ray from the inner point hits.
-  const auto on_the_ray = [&] { return interior_.isZero(0) || (newest_w_ - newest_w_.dot(interior_) * interior_).norm() <= 1e-6 * c_.size; };
+  const auto on_the_ray = [&] { return interior_.isZero(0) || (newest_w_ - newest_w_.dot(interior_) * interior_).norm() <= std::max(1e-6, 10 * c_.digits()) * c_.size; };
   const bool hit = portal_ == Portal::none && newest_w_.size() == interior_.size() && on_the_ray();
   if (e.status == MprStatus::overlapping && newest_w_.size() > 0 && !hit && portal_ != Portal::found_last) contradiction("MPR ended as \"overlapping\" without the portal that shows it.");
   lower_ = upper_ = unknowable;
@@ -85,8 +87,24 @@ void RecordCheck::judge(const recorded::MprEnded& e) {
   lower_ = -height_, upper_ = portal_ == Portal::none || std::isnan(cleared_) ? unknowable : -std::max(0.0, cleared_);
 }
 
+/// Of two boxes opposite faces and parallel edges share their axes; of others there is one for every way that a face faces, and for two edges of different ways.
+void RecordCheck::count_axes(const recorded::SatBegan& e) {
+  const auto& bodies = c_.recording.scene.scene.bodies;
+  if (!c_.has_supports || bodies.size() != 2) return;
+  const std::optional<Features> a = features_of(bodies[0].shape, c_.dimension), b = features_of(bodies[1].shape, c_.dimension);
+  if (!a || !b) return;
+  const auto count = [](const auto& list) { return static_cast<Number>(list.size()); };
+  const std::array<Number, 3> said{e.faces_a, e.faces_b, e.edge_pairs}, of_all{count(a->face_normals), count(b->face_normals), count(a->edges) * count(b->edges)};
+  const std::array<Number, 3> of_boxes{c_.dimension, c_.dimension, c_.dimension == 3 ? 9 : 0};
+  const bool boxes = std::holds_alternative<Box>(bodies[0].shape.geometry) && std::holds_alternative<Box>(bodies[1].shape.geometry);
+  const auto may_be_box = [](const Body& body) { return !std::holds_alternative<PointSet>(body.shape.geometry); };  // a sum of boxes is one
+  if (said == of_all || (may_be_box(bodies[0]) && may_be_box(bodies[1]) && said == of_boxes)) return;
+  const auto told = [](const std::array<Number, 3>& n) { return std::to_string(n[0]) + " and " + std::to_string(n[1]) + " faces and " + std::to_string(n[2]) + " pairs of edges"; };
+  contradiction("SAT is said to have " + told(said) + " to look along; the bodies have " + told(boxes ? of_boxes : of_all) + ".");
+}
+
 /// A pair of edges of which one has no faces beside it is an axis both ways.
-void RecordCheck::judge(const recorded::SatBegan& e) { methods_.insert(e.kind), axes_ = {e.faces_a, e.faces_b, 2 * Number{e.edge_pairs}}, plane_ = -unknown, nearest_projected_.reset(); }
+void RecordCheck::judge(const recorded::SatBegan& e) { count_axes(e), methods_.insert(e.kind), axes_ = {e.faces_a, e.faces_b, 2 * Number{e.edge_pairs}}, plane_ = -unknown, nearest_projected_.reset(); }
 void RecordCheck::judge(const recorded::AxisTested& e) {
   leads_on(e.direction, axis_, "its support");
   if (e.vertex != newest_) contradiction("Vertex " + std::to_string(e.vertex) + " is said to be the farthest along the axis, but the last one asked for is " + std::to_string(newest_) + ".");
@@ -155,7 +173,7 @@ void RecordCheck::nearest_to(std::size_t body, const AnyVector& point, const Any
   const AnyVector out = from - point;
   if (!c_.has_supports || !c_.cores || !out.allFinite() || !(out.norm() > c_.tolerance)) return;
   const double beyond = c_.short_of_support(body, out.normalized(), point);
-  if (beyond > std::max(c_.tolerance, 1e-7 * c_.size) + c_.digits() * c_.size * c_.size / out.norm())
+  if (beyond > std::max(c_.tolerance, 1e-7 * c_.size) + (c_.digits() * c_.size + c_.world) * c_.size / out.norm())
     contradiction((body == 0 ? "a = " : "b = ") + text_of(point) + " is not the point of body " + std::to_string(body) + " nearest to " + text_of(from) + ": the body reaches " + text_of(beyond) + " farther that way.");
 }
 void RecordCheck::judge(const recorded::ProjectionsBegan& e) { projected_from_ = e.point, plane_ = -unknown, methods_.insert(e.kind); }

@@ -110,6 +110,12 @@ struct Judge {
     return r.status == "iteration_limit" && (last == events.rend() || std::holds_alternative<recorded::GjkEnded>(*last));
   }
 
+  /// The normal of bodies apart is v, divided by its length: as in check_touching.cpp, v is known to 64 eps of the size, and to what the world leaves of it, by which a short one is turned.
+  double turned_by_rounding() const {
+    const double v = r.signed_distance.value_or(0);
+    return v > 0 ? std::min(1.0, (64 * c.epsilon() * c.size + c.world) / v) * c.size : 0;
+  }
+
   /// Any unit direction along which the bodies are as far apart, or as little deep, as they are at best is a right normal.
   void normal() const {
     if (!r.normal || cut_short()) return;
@@ -122,10 +128,10 @@ struct Judge {
       return;
     }
     if (!c.has_supports && limited) return;  // it may be of a triangle that is not the nearest
-    const double slack = 10 * limit + (*right.upper_bound - *right.lower_bound);
+    const double slack = 10 * limit + (*right.upper_bound - *right.lower_bound) + turned_by_rounding();
     const double along = c.apart_along(n), against = c.apart_along(-n);
     // What is not the best way out is one all the same: the bodies are as deep along it as is said.
-    const bool as_said = !limited || !r.signed_distance || along >= *r.signed_distance - 10 * c.answer_tolerance();
+    const bool as_said = !limited || !r.signed_distance || along >= *r.signed_distance - 10 * c.answer_tolerance() - turned_by_rounding();
     if (along >= sd - slack && as_said) return;
     if (way_out()) return;
     if (against >= sd - slack)
@@ -200,7 +206,7 @@ struct Judge {
       const ContactPoint& p = (*r.contacts)[i];
       const std::string name = "Contact point " + std::to_string(i) + ", " + text_of(p.point_a) + " and " + text_of(p.point_b) + ", " + text_of(p.depth) + " deep, ";
       for (std::size_t before = 0; before < i; ++before)
-        if (const ContactPoint& q = (*r.contacts)[before]; (p.point_a - q.point_a).norm() <= 1e-9 * c.size && (p.point_b - q.point_b).norm() <= 1e-9 * c.size)  // in single precision, too: neighbours may be as near as that rounds
+        if (const ContactPoint& q = (*r.contacts)[before]; (p.point_a - q.point_a).norm() <= 1e-10 * c.size && (p.point_b - q.point_b).norm() <= 1e-10 * c.size)  // ours joins what is within 1e-9 of the bodies; in single precision, too: neighbours may be as near as that rounds
           c.find("wrong-contact", name + "is point " + std::to_string(before) + " again.", Finding::Severity::warning);
       const double off = r.normal ? AnyVector(p.point_b - p.point_a + p.depth * *r.normal).stableNorm() : std::abs(AnyVector(p.point_b - p.point_a).stableNorm() - std::abs(p.depth));
       const double out = std::max(outside(scene, 0, p.point_a), outside(scene, 1, p.point_b));

@@ -28,7 +28,7 @@ class Runs {
   };
   struct Candidate {
     Two pair, triangles;
-    bool fits;  ///< all supports are supports of these bodies
+    std::size_t until;  ///< the first step that there is something to find in, if it were these
   };
   static constexpr int enough = 8;  ///< runs with findings: a wrong one is looked at with every pair and triangle
 
@@ -67,10 +67,10 @@ class Runs {
     tell(frame, *likeliest, run);
   }
 
-  /// Others are not looked at by any run of ours.
+  /// Others are not looked at by any run of ours: those whose centres of mass, which lie within their reach r of their places, are farther apart than both reach from there, up to 2 r.
   bool near(const Frame& frame, const Two& pair) const {
     double reach = 0;
-    for (const int k : pair) reach += 2 * reach_of(c_.recording.scene.scene.bodies[static_cast<std::size_t>(k)].shape, c_.dimension);
+    for (const int k : pair) reach += 3 * reach_of(c_.recording.scene.scene.bodies[static_cast<std::size_t>(k)].shape, c_.dimension);
     return c_.recording.scene.scene.query == Query::cast || (frame.places[static_cast<std::size_t>(pair[0])].position - frame.places[static_cast<std::size_t>(pair[1])].position).norm() <= reach;
   }
   static bool exist(const Two& pair, int bodies) { return pair[0] != pair[1] && std::min(pair[0], pair[1]) >= 0 && std::max(pair[0], pair[1]) < bodies; }
@@ -109,16 +109,16 @@ class Runs {
     return all;
   }
 
-  /// Whether there is nothing to find in the run, taken for one of these two bodies. Else the first that all supports fit is the likeliest, or the first of all.
+  /// Whether there is nothing to find in the run, taken for one of these two bodies. Else those are the likeliest that it fits longest, or the first of all.
   bool clean(const Frame& frame, const Two& pair, const Part& part, std::optional<Candidate>& likeliest) const {
     for (const Two& triangles : triangles_of(frame, pair, part.first)) {
-      Candidate one{pair, triangles, true};
+      Candidate one{pair, triangles, 0};
       Recording run = run_of(frame, one);
       run.events.assign(events_.begin() + static_cast<std::ptrdiff_t>(part.first), events_.begin() + static_cast<std::ptrdiff_t>(part.last));
       const std::vector<Finding> found = check_steps(run, 0);
       if (found.empty()) return true;
-      one.fits = std::none_of(found.begin(), found.end(), [](const Finding& f) { return f.code == "wrong-support"; });
-      if (!likeliest || (one.fits && !likeliest->fits)) likeliest = one;
+      one.until = found.front().step;
+      if (!likeliest || one.until > likeliest->until) likeliest = one;
     }
     return false;
   }

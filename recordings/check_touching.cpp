@@ -64,7 +64,7 @@ struct Nearly {
     const double far = reach(), rounding = (single ? 1e-6 : 1e-14) * far;
     if (!r.intersecting && *right.upper_bound <= 1e-14 * far) apart(rounding, -*right.upper_bound > 1e-14 * far);  // by our own bounds, which are of double precision
     // What stops at a tolerance may take a gap of that length for none.
-    if (r.intersecting && *right.lower_bound > rounding + 8 * c.recording.settings.tolerance * c.size)
+    if (r.intersecting && *right.lower_bound > rounding + 8 * c.recording.settings.tolerance * c.size + of_last_simplex())
       warn("wrong-answer", "The bodies are called overlapping, but they are apart by " + text_of(*right.lower_bound) + ": little beside their size, but more than rounding. The usual cause is |v| compared with a tolerance that is far above rounding, or an absolute one.");
   }
 
@@ -79,6 +79,23 @@ struct Nearly {
   /// large angle (64, as in check_towards_origin: for the weights, which are rounded, too). So far may the height along it be off.
   double turned_by_rounding(double v) const { return known_to() / v * c.size; }
   double known_to() const { return 64 * (single ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon()) * c.size; }
+  /// What it leaves open of a sliver, if that is what the search ended with.
+  double of_last_simplex() const { return c.rounding_of(last_simplex()); }
+  std::vector<AnyVector> last_simplex() const {
+    std::vector<AnyVector> w;
+    for (const Event& event : c.recording.events)
+      if (const auto* e = std::get_if<recorded::SimplexReduced>(&event)) {
+        w.clear();
+        for (const int number : e->region)
+          if (const auto found = c.vertices.find(number); found != c.vertices.end()) w.push_back(found->second);
+      }
+    return w;
+  }
+  /// Of round bodies: whether the last simplex is as far from the origin as their radii reach, to what v is known to. Either answer is right then.
+  bool radii_reach() const {
+    const std::vector<AnyVector> w = last_simplex();
+    return c.radius > 0 && !w.empty() && std::abs(nearest_point(w).v.norm() - c.radius) <= known_to();
+  }
 
   /// How far the last simplex that was told is from the origin; 0 where none was, and where it is farther than what may be taken for touching. One that holds the origin to rounding has
   /// no direction towards it, but the program's own v has, and counts where it is what was asked along.
@@ -103,7 +120,7 @@ struct Nearly {
   void apart(double rounding, bool overlap) const {
     const double measured = r.signed_distance.value_or(0);
     if (measured > 0 && measured <= *right.upper_bound + rounding) return;  // as far apart as they are, to rounding
-    if (best_plane > c.radius) return;
+    if (best_plane > c.radius || radii_reach()) return;
     double least = std::numeric_limits<double>::infinity();
     for (const Event& event : c.recording.events) {
       const auto* q = std::get_if<recorded::SupportQueried>(&event);

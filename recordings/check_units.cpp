@@ -11,6 +11,9 @@ namespace {
 
 /// Of lengths up to this products of four have lost nothing yet: 1e-240, and of parts a trillion times smaller they are numbers all the same.
 constexpr double least_length = 1e-60;
+/// Simulations are compared with more than lengths: momenta and energies, of which a millionth of a millionth is let pass. Of smaller bodies that would be all. Energies are squares,
+/// which have to be numbers in the file.
+constexpr double least_simulated = 1e-3, least_told = 1e-140;
 
 /// Multiplies all lengths, and what is one per unit of time, by a power of two, which rounds nothing on the way up.
 struct Lengths {
@@ -39,6 +42,7 @@ struct Lengths {
     requires requires { E::fields(); }
   void scale(E& e) {
     // A direction's length means nothing, and the rest are none. (What a cast calls energy and momentum is zero.)
+    if constexpr (requires { e.energy; }) scale(e.energy), scale(e.energy);  // a square
     const auto none = [](std::string_view name) {
       for (const std::string_view other : {"direction", "normal", "barycentric", "time", "s", "t", "energy", "orientation", "angular_velocity"})
         if (name == other) return true;
@@ -57,8 +61,13 @@ struct Lengths {
     scale(body.pose.position);
     if (body.motion) scale(body.motion->velocity);
   }
+  void scale(Scene& scene) {
+    for (Body& body : scene.bodies) scale(body);
+    if (scene.motion) scale(scene.motion->gravity);
+  }
   void scale(Result& r) {
     scale(r.signed_distance), scale(r.lower_bound), scale(r.upper_bound), scale(r.witness_a), scale(r.witness_b);
+    scale(r.energy), scale(r.energy);
     if (r.contacts)
       for (ContactPoint& p : *r.contacts) scale(p.point_a), scale(p.point_b), scale(p.depth);
     if (r.bodies)
@@ -70,17 +79,18 @@ struct Lengths {
 
 std::optional<InOtherUnits> in_units_of_its_own(const Recording& recording) {
   const Scene& scene = recording.scene.scene;
-  if (scene.query == Query::simulate) return std::nullopt;  // of which energies are products already
   double size = 0;
   for (const Body& body : scene.bodies) {
     size = std::max({size, size_of(body.shape), body.pose.position.cwiseAbs().maxCoeff()});
     if (body.motion && body.motion->velocity.size() > 0) size = std::max(size, body.motion->velocity.cwiseAbs().maxCoeff());
   }
-  if (size == 0 || size > least_length) return std::nullopt;
+  const bool simulated = scene.query == Query::simulate;
+  if (simulated && scene.motion && scene.motion->gravity.size() > 0) size = std::max(size, scene.motion->gravity.cwiseAbs().maxCoeff() * scene.motion->time_step);
+  if (size == 0 || size > (simulated ? least_simulated : least_length) || (simulated && size < least_told)) return std::nullopt;
   const int exponent = std::min(-std::ilogb(size), 1000);  // below the normal numbers 2^1000 is near enough, and a number
   InOtherUnits out{recording, std::ldexp(1.0, -exponent), exponent};
   Lengths lengths{1 / out.unit};
-  for (Body& body : out.recording.scene.scene.bodies) lengths.scale(body);
+  lengths.scale(out.recording.scene.scene);
   lengths.scale(out.recording.settings.initial_simplex);
   for (Event& event : out.recording.events) std::visit([&](auto& e) { lengths.scale(e); }, event);
   lengths.scale(out.recording.result);

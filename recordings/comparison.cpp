@@ -6,6 +6,9 @@
 
 #include "recordings/json_reading.h"
 #include "recordings/json_writing.h"
+#include "shapes/convex.h"
+#include "shapes/corners.h"
+#include "shapes/world_support.h"
 
 namespace gjkdbg {
 namespace {
@@ -167,6 +170,31 @@ std::vector<std::string> missed_expectations(const SceneFile& scene, const Resul
   compare("signed_distance", result.signed_distance, e.signed_distance, difference);
   compare("time", result.time, e.time, difference);
   compare("normal", result.normal, e.normal, [](const AnyVector& a, const AnyVector& b) { return (a - b).cwiseAbs().maxCoeff(); });
+  return missed;
+}
+
+std::vector<std::string> missed_by_solver(const SceneFile& scene, const Recording& run) {
+  if (!scene.expect || unanswered(run.result)) return {};
+  const Scene& bodies = scene.scene;
+  const bool round = std::any_of(bodies.bodies.begin(), bodies.bodies.end(), [&](const Body& b) { return WorldSupport(b, bodies.dimension).radius() > 0 || !corners_of(b.shape, bodies.dimension); });
+  const double share = std::max(round || run.settings.scalar == Scalar::float_precision ? 1e-3 : 1e-6, 8 * run.settings.tolerance);
+  double size = 0;
+  for (const Body& body : bodies.bodies) size = std::max(size, size_of(body.shape));
+  SceneFile of_distance = scene, of_normal = scene;
+  Result result = run.result;
+  if (bodies.query == Query::distance && result.intersecting && result.signed_distance) result.signed_distance = std::max(0.0, *result.signed_distance);
+  of_distance.expect->tolerance = std::max(scene.expect->tolerance, share * std::max(size, std::abs(scene.expect->signed_distance.value_or(0))));
+  of_distance.expect->normal.reset();
+  if (!result.signed_distance) of_distance.expect->signed_distance.reset();
+  // Next to touching either answer is right, and so is any normal; of round bodies one that is off by x makes the distance wrong by x^2 only, if by that.
+  Expectation& e = *of_distance.expect;
+  const bool touching = result.signed_distance && std::abs(*result.signed_distance) <= e.tolerance && std::abs(e.signed_distance.value_or(0)) <= e.tolerance;
+  if (touching) e.intersecting.reset();
+  std::vector<std::string> missed = missed_expectations(of_distance, result);
+  if (touching || round || !result.normal) return missed;
+  of_normal.expect->tolerance = std::max(scene.expect->tolerance, std::sqrt(2 * share));
+  of_normal.expect->intersecting.reset(), of_normal.expect->signed_distance.reset();
+  for (std::string& what : missed_expectations(of_normal, result)) missed.push_back(std::move(what));
   return missed;
 }
 

@@ -38,4 +38,8 @@ std::optional<Difference> verify(const Recording& recording);
 /// What of the expectation a result misses, a sentence each; empty when it is met.
 std::vector<std::string> missed_expectations(const SceneFile& scene, const Result& result);
 
+/// The same of another program's run under the solver protocol: of what it answered, all but yes or no being optional, and within the tolerances that `check` judges distances by where
+/// these are coarser: an expectation is written for what our own methods come to. A depth is no miss where a distance was asked for; what came to no answer has missed nothing more.
+std::vector<std::string> missed_by_solver(const SceneFile& scene, const Recording& run);
+
 }  // namespace gjkdbg

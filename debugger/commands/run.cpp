@@ -1,5 +1,6 @@
 // run: another implementation on a scene, under the debugger, then check.
 #include <CLI/CLI.hpp>
+#include <iostream>
 #include <memory>
 
 #include "debugger/commands/commands.h"
@@ -7,6 +8,7 @@
 #include "debugger/commands/input.h"
 #include "debugger/commands/output_file.h"
 #include "debugger/solver/solver_run.h"
+#include "recordings/comparison.h"
 
 namespace gjkdbg {
 namespace {
@@ -24,7 +26,9 @@ struct Run {
     if (!output.empty()) write_output(output, recording_to_text(recording));
     const std::vector<Finding> findings = check(recording);
     print_findings(findings, json, output == "-" ? std::cerr : std::cout);
-    return findings.empty() ? exit_done : exit_difference;
+    const std::vector<std::string> missed = missed_by_solver(read, recording);
+    for (const std::string& what : missed) std::cerr << "gjkdbg: " << file << ": /expect: " << what << "\n";
+    return findings.empty() && missed.empty() ? exit_done : exit_difference;
   }
 
  private:

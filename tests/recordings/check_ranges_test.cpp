@@ -135,9 +135,7 @@ TEST(CheckRanges, WholeNumbersMayBeAsLargeAsTheyCome) {
         const std::function<void(int&)> change = [&](int& x) { x = left-- == 0 ? most : x; };
         std::visit([&](auto& e) { WholeNumbers{change}.see(e); }, recording.events[i]);
         const std::string said = all_said_of(recording);
-        const auto* axes = std::get_if<recorded::SatBegan>(&recording.events[i]);
-        const bool counted = !axes || axes->edge_pairs != most;  // of edges fewer pairs may come than there are
-        EXPECT_EQ(said.empty(), !counted) << scene << ", number " << number << " of step " << i;
+        EXPECT_NE(said, "") << scene << ", number " << number << " of step " << i;
         EXPECT_EQ(said.find(" -214748364"), std::string::npos) << said;
       }
     Recording all = right;
