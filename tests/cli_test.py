@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -68,6 +69,15 @@ class Program(unittest.TestCase):
             if command[0] in ("scenes", "dump", "verify", "diff"):
                 result = run(*command, cwd=self.path)
                 self.assertEqual((result.returncode, result.stderr), (1 if command[0] == "diff" else 0, ""), command)
+
+    def test_where_nothing_can_be_installed_the_build_told_of_needs_no_more_than_is_named(self):
+        for tool in ("awk", "bash", "dirname", "readlink", "tr"):
+            (self.path / tool).symlink_to(shutil.which(tool))
+        for parts, flags in (("build view tests", ""), ("build view", "-DGJKDBG_TESTS=OFF "), ("build", "-DGJKDBG_VIEW=OFF -DGJKDBG_TESTS=OFF ")):
+            told = subprocess.run(["bash", ROOT / "debugger/install_packages", *parts.split()], capture_output=True, text=True, env={"PATH": str(self.path)})
+            self.assertEqual(told.returncode, 1)
+            self.assertEqual("googletest" in told.stderr, "tests" in parts)
+            self.assertTrue(told.stderr.endswith(f"Then: cmake --preset release {flags}&& cmake --build build/release\n"), told.stderr)
 
     def test_dump_by_gallery_name(self):
         self.assertEqual(run("dump", "two-unit-cubes", cwd=self.path).returncode, 0)
