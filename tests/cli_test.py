@@ -79,6 +79,24 @@ class Program(unittest.TestCase):
             self.assertEqual("googletest" in told.stderr, "tests" in parts)
             self.assertTrue(told.stderr.endswith(f"Then: cmake --preset release {flags}&& cmake --build build/release\n"), told.stderr)
 
+    @unittest.skipUnless("render" in run("--help").stdout, "built without the view")
+    def test_start_without_a_display(self):
+        """What it writes is named after the scene, whatever kind of file it was given."""
+        root, work = self.path / "root", self.path / "work"
+        (root / "debugger").mkdir(parents=True), (root / "build/release/debugger").mkdir(parents=True), work.mkdir()
+        shutil.copy(ROOT / "debugger/start", root / "debugger/start")
+        for stub in ("debugger/install_packages", "cmake"):
+            (root / stub).write_text("#!/bin/sh\n"), (root / stub).chmod(0o755)
+        (root / "build/release/build.ninja").touch()
+        (root / "build/release/debugger/gjkdbg").symlink_to(PROGRAM)
+        recording = self.path / "kept.recording.json"
+        run("dump", self.scene, "-o", recording)
+        environment = {**{k: v for k, v in os.environ.items() if "DISPLAY" not in k}, "PATH": f"{root}:{os.environ['PATH']}", "ASAN_OPTIONS": "detect_leaks=0"}
+        for given, name in ((self.scene, "cubes"), (recording, "kept"), ("2d-deep", "2d-deep")):
+            self.assertEqual(subprocess.run([root / "debugger/start", given], cwd=work, env=environment, capture_output=True, text=True).stdout,
+                             f"No display here. Written instead: {name}.recording.json and {name}.png\n")
+        self.assertEqual(sorted(p.name for p in work.iterdir()), sorted(f"{name}.{kind}" for name in ("cubes", "kept", "2d-deep") for kind in ("recording.json", "png")))
+
     def test_dump_by_gallery_name(self):
         self.assertEqual(run("dump", "two-unit-cubes", cwd=self.path).returncode, 0)
         self.assertEqual(run("dump", "three-unit-cubes", cwd=self.path).stderr, "gjkdbg: three-unit-cubes: is neither a file nor a scene of the gallery, which gjkdbg scenes lists\n")
