@@ -31,6 +31,8 @@ int run(int argc, char** argv) {
   CLI::App app("The debugger for GJK and EPA", "gjkdbg");
   app.set_version_flag("--version", generator_name());
   app.require_subcommand(1);
+  app.footer("gjkdbg COMMAND --help lists a command's options. A SCENE is a file or the name of a gallery scene.\n"
+             "Exit status: 0 done; 1 a finding, a difference, or an answer that is not as expected; 2 bad usage or bad input.");
   Status status = exit_done;
 #ifdef GJKDBG_WITH_VIEW
   add_view(app, status);

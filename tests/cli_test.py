@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -68,6 +69,33 @@ class Program(unittest.TestCase):
             if command[0] in ("scenes", "dump", "verify", "diff"):
                 result = run(*command, cwd=self.path)
                 self.assertEqual((result.returncode, result.stderr), (1 if command[0] == "diff" else 0, ""), command)
+
+    def test_where_nothing_can_be_installed_the_build_told_of_needs_no_more_than_is_named(self):
+        for tool in ("awk", "bash", "dirname", "readlink", "tr"):
+            (self.path / tool).symlink_to(shutil.which(tool))
+        for parts, flags in (("build view tests", ""), ("build view", "-DGJKDBG_TESTS=OFF "), ("build", "-DGJKDBG_VIEW=OFF -DGJKDBG_TESTS=OFF ")):
+            told = subprocess.run(["bash", ROOT / "debugger/install_packages", *parts.split()], capture_output=True, text=True, env={"PATH": str(self.path)})
+            self.assertEqual(told.returncode, 1)
+            self.assertEqual("googletest" in told.stderr, "tests" in parts)
+            self.assertTrue(told.stderr.endswith(f"Then: cmake --preset release {flags}&& cmake --build build/release\n"), told.stderr)
+
+    @unittest.skipUnless("render" in run("--help").stdout, "built without the view")
+    def test_start_without_a_display(self):
+        """What it writes is named after the scene, whatever kind of file it was given."""
+        root, work = self.path / "root", self.path / "work"
+        (root / "debugger").mkdir(parents=True), (root / "build/release/debugger").mkdir(parents=True), work.mkdir()
+        shutil.copy(ROOT / "debugger/start", root / "debugger/start")
+        for stub in ("debugger/install_packages", "cmake"):
+            (root / stub).write_text("#!/bin/sh\n"), (root / stub).chmod(0o755)
+        (root / "build/release/build.ninja").touch()
+        (root / "build/release/debugger/gjkdbg").symlink_to(PROGRAM)
+        recording = self.path / "kept.recording.json"
+        run("dump", self.scene, "-o", recording)
+        environment = {**{k: v for k, v in os.environ.items() if "DISPLAY" not in k}, "PATH": f"{root}:{os.environ['PATH']}", "ASAN_OPTIONS": "detect_leaks=0"}
+        for given, name in ((self.scene, "cubes"), (recording, "kept"), ("2d-deep", "2d-deep")):
+            self.assertEqual(subprocess.run([root / "debugger/start", given], cwd=work, env=environment, capture_output=True, text=True).stdout,
+                             f"No display here. Written instead: {name}.recording.json and {name}.png\n")
+        self.assertEqual(sorted(p.name for p in work.iterdir()), sorted(f"{name}.{kind}" for name in ("cubes", "kept", "2d-deep") for kind in ("recording.json", "png")))
 
     def test_dump_by_gallery_name(self):
         self.assertEqual(run("dump", "two-unit-cubes", cwd=self.path).returncode, 0)

@@ -5,6 +5,7 @@ import copy
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -105,6 +106,17 @@ class Schemas(unittest.TestCase):
             self.assertLessEqual({"wrong-closest", "unknown-field"}, {f["code"] for f in findings["findings"]})
             self.check("recording", load(path), "nan")
             self.assertEqual(json.loads(subprocess.run([PROGRAM, "check", str(path), "--json"], capture_output=True, text=True).stdout), findings)
+
+    def test_every_finding_code(self):
+        """What check and a solver's run can say, what the page lists, and what the schema takes are the same codes."""
+        schema = set(SCHEMAS["findings"].schema["properties"]["findings"]["items"]["properties"]["code"]["enum"])
+        table = (ROOT / "recordings/README.md").read_text().split("## Findings")[1]
+        listed = {code for row in re.findall(r"^\| (`[^|]*) \|", table, re.MULTILINE) for code in re.findall(r"`([a-z-]+)`", row)}
+        self.assertEqual(listed, schema)
+        sources = [*(ROOT / "recordings").glob("check*.cpp"), *(ROOT / "debugger/solver").glob("*.cpp")]
+        said = {code for source in sources for code in re.findall(r'(?<!json.)\b(?:find\w*|suspect|abort|warn|Warning)[({]"([a-z-]+)"', source.read_text())}
+        self.assertGreater(len(said), 40)
+        self.assertLessEqual(said, schema)
 
     def test_the_example_of_another_engine(self):
         text = (ROOT / "recordings/README.md").read_text()

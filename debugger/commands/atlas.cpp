@@ -114,9 +114,9 @@ void add_atlas(CLI::App& app, Status& status) {
   auto options = std::make_shared<AtlasCommand>();
   CLI::App* command = app.add_subcommand("atlas", "Stability where methods fail: heat map, table, JSON into a folder");
   command->add_flag("--quick", options->quick, "fewer cases");
-  command->add_option("--method", options->methods, "only methods whose names begin so: default, johnson, sat, …");
+  command->add_option("--methods,--method", options->methods, "only methods whose names begin so: default, johnson, sat, …; an unknown name lists all");
   command->add_option("-o,--output", options->output, "folder (atlas)")->check(named());
-  command->add_option("--gate", options->gate, "a kept atlas.json: exit 1 when any cell is worse")->check(named());
+  command->add_option("--gate", options->gate, "a kept atlas.json: exit status 1 when any cell is worse, or was not measured")->check(named());
   command->callback([options, &status] { status = options->run(); });
 }
 

@@ -114,8 +114,8 @@ void add_chart(CLI::App& app, Status& status) {
   auto options = std::make_shared<ChartCommand>();
   CLI::App* command = app.add_subcommand("chart", "Speed against accuracy: SVG, PNG, CSV, JSON into a folder");
   command->add_flag("--quick", options->options.quick, "fewer pairs and tolerances");
-  command->add_option("--families", options->options.families, "only these, by name")->delimiter(',');
-  command->add_option("--methods", options->options.methods, "only methods whose names begin so: default, johnson, sat, …");
+  command->add_option("--families", options->options.families, "only these, separated by commas; an unknown name lists all")->delimiter(',');
+  command->add_option("--methods,--method", options->options.methods, "only methods whose names begin so: default, johnson, sat, …; an unknown name lists all");
   command->add_option("-o,--output", options->output, "folder (chart)")->check(named());
   command->callback([options, &status] { status = options->run(); });
 }

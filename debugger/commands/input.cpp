@@ -85,16 +85,16 @@ void override_name(std::optional<Enum>& setting, const std::optional<std::string
 
 void MethodFlags::add_to(CLI::App& app) {
   const auto group = "Method (overrides the scene's)";
-  app.add_option("--name,--method", name_, "algorithm")->check(CLI::IsMember(list(method_names)))->group(group);
-  app.add_option("--closest_point,--closest-point", closest_point_, "sub-algorithm")->check(CLI::IsMember(list(closest_point_names)))->group(group);
+  app.add_option("--name,--method", name_, "algorithm; fastest: whichever the charts show for these bodies")->check(CLI::IsMember(list(method_names)))->group(group);
+  app.add_option("--closest_point,--closest-point", closest_point_, "GJK's closest-point sub-algorithm")->check(CLI::IsMember(list(closest_point_names)))->group(group);
   app.add_option("--penetration", penetration_, "what runs when the cores overlap")->check(CLI::IsMember(list(penetration_names)))->group(group);
   app.add_option("--scalar", scalar_, "arithmetic")->check(CLI::IsMember(list(scalar_names)))->group(group);
   app.add_option("--stopping", stopping_, "GJK's stopping rule")->check(CLI::IsMember(list(stopping_names)))->group(group);
   app.add_option("--acceleration", acceleration_, "directions of gjk-accelerated")->check(CLI::IsMember(list(acceleration_names)))->group(group);
   app.add_option("--start", start_, "where GJK begins")->check(CLI::IsMember(list(start_names)))->group(group);
-  app.add_option("--start_from,--start-from", start_from_, "recording whose last simplex to begin with")->check(named())->group(group);
+  app.add_option("--start_from,--start-from", start_from_, "recording with whose last simplex GJK begins")->check(named())->group(group);
   app.add_option("--tolerance", tolerance_, "relative gap of the bounds at which to stop; greater than 0 and less than 1")->check(between(0, 1))->group(group);
-  app.add_option("--max_iterations,--max-iterations", max_iterations_, "of each phase")->check(between(1, 1000000))->group(group);
+  app.add_option("--max_iterations,--max-iterations", max_iterations_, "of each phase (512)")->check(between(1, 1000000))->group(group);
   app.add_option("--initial_direction,--initial-direction", initial_direction_, "first search direction, e.g. 1,0,0")->delimiter(',')->allow_extra_args(false)->group(group);  // or a scene's name after it is taken for a number
 }
 

@@ -166,7 +166,7 @@ void add_query(CLI::App& app, Status& status) {
   CLI::App* command = app.add_subcommand("query", "A scene a line in (JSON lines), a result a line out, in order");
   command->add_option("PAIRS", query->input, "file of scenes, one a line; - for standard input; or a *.scene.json")->required()->check(named());
   command->add_option("-o,--output", query->output, "file to write; standard output unless given")->check(named());
-  command->add_option("-j,--jobs", query->jobs, "threads")->check(between(1, 256));
+  command->add_option("-j,--jobs", query->jobs, "threads (1)")->check(between(1, 256));
   query->flags.add_to(*command);
   command->callback([query, &status] { status = query->run(); });
 }

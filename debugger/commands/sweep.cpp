@@ -247,7 +247,7 @@ struct Sweep {
 void add_sweep(CLI::App& app, Status& status) {
   auto options = std::make_shared<Sweep>();
   CLI::App* command = app.add_subcommand("sweep", "The gallery and random scenes, or your own scenes, through your own GJK");
-  command->add_option("scenes", options->scenes, "scene files or gallery names, and no others (the gallery)")->check(named());
+  command->add_option("SCENE", options->scenes, "scene files or gallery names, and no others (the gallery)")->check(named());
   command->add_option("--exec", options->command, "the program, as a shell would start it")->required()->check(named());
   command->add_option("--random", options->random, "how many random scenes (100; with scenes named: none)")->check(between(0, 1000000));
   command->add_option("--dimension", options->dimension, "only scenes of this dimension")->check(between(1, 3));

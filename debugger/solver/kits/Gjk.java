@@ -2,7 +2,8 @@
 //
 //   javac Gjk.java && gjkdbg run SCENE --exec "java Gjk"
 //
-// Replace what `main` calls by yours. All it needs is support(d): the farthest point w of A - B along d, with a and b, w = a - b.
+// Replace what `main` calls by yours. All it needs is support(d): the farthest point w of A - B along d, with a and b, w = a - b. Reports by `say`
+// ("simplex", "polytope", "face") are optional; the more you report, the earlier gjkdbg can tell where it went wrong.
 import java.io.*;
 import java.math.*;
 import java.util.*;

@@ -2,7 +2,8 @@
 //
 //   c++ -std=c++17 -O2 gjk.cpp -o gjk && gjkdbg run SCENE --exec ./gjk
 //
-// Replace `solve` by yours. All it needs is solver.support(d): the farthest point w of A - B along d.
+// Replace what `main` calls by yours. All it needs is solver.support(d): the farthest point w of A - B along d, with a and b, w = a - b. Reports
+// (solver.simplex, polytope, face) are optional; the more you report, the earlier gjkdbg can tell where it went wrong.
 #include <algorithm>
 #include <cmath>
 #include <map>

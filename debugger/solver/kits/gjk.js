@@ -3,8 +3,8 @@
 //
 //   gjkdbg run SCENE --exec "node gjk.js"
 //
-// Replace `solve` by yours. All it needs is support(d): the farthest point w of A - B along d, with a and b, w = a - b. The
-// calls of `say` are optional; the more you report, the earlier gjkdbg can tell where it went wrong.
+// Replace `solve` by yours. All it needs is support(d): the farthest point w of A - B along d, with a and b, w = a - b. Reports
+// by `say` ("simplex", "polytope", "face") are optional; the more you report, the earlier gjkdbg can tell where it went wrong.
 "use strict";
 const fs = require("fs");
 
