@@ -50,13 +50,24 @@ bool nearer(const Result& x, const Result& y) {
   return x.intersecting && !y.intersecting;
 }
 
-/// The union of the parts: as near as its nearest part, and its bounds are the least of theirs.
+/// Of a part whose search came to its limit: whether what is known of it leaves open that it is nearer than `nearest`.
+bool may_be_nearer(const Result& part, const Result& nearest) {
+  if (part.status != word_of(GjkStatus::iteration_limit)) return false;  // EPA's and MPR's limits are called the same
+  if (part.lower_bound && nearest.signed_distance) return *part.lower_bound < *nearest.signed_distance;
+  return !nearest.intersecting;
+}
+
+/// The union of the parts: as near as its nearest part, and its bounds are the least of theirs. Where another part may be nearer the search of the
+/// whole has come to its limit.
 void merge(std::optional<Result>& total, const Result& part) {
   if (!total) {
     total = part;
     return;
   }
-  Result merged = nearer(part, *total) ? part : *total;
+  const bool takes_over = nearer(part, *total);
+  const Result& other = takes_over ? *total : part;
+  Result merged = takes_over ? part : *total;
+  if (may_be_nearer(other, merged)) merged.status = other.status;
   merged.iterations = total->iterations + part.iterations;
   merged.support_calls = total->support_calls + part.support_calls;
   if (part.lower_bound && total->lower_bound) merged.lower_bound = std::min(*part.lower_bound, *total->lower_bound);
