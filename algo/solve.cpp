@@ -119,9 +119,10 @@ Result solve_scene(const Scene& scene, const Settings& settings, TraceSink* sink
 
 template <int D, class S>
 double floor_of(const Scene& scene) {
-  const Pose &pose_a = scene.bodies[0].pose, &pose_b = scene.bodies[1].pose;
-  const Convex<D, S> a(convex_parts(scene.bodies[0].shape)[0]), b(convex_parts(scene.bodies[1].shape)[0]);
-  return static_cast<double>(MinkowskiDifference<D, S, Convex<D, S>>(a, b, pose_a, pose_b, 1).rounding_floor());
+  const Body &body_a = scene.bodies[0], &body_b = scene.bodies[1];
+  const double scale = working_scale<S>(body_a, body_b);
+  const Convex<D, S> a(convex_parts(body_a.shape)[0], scale), b(convex_parts(body_b.shape)[0], scale);
+  return static_cast<double>(MinkowskiDifference<D, S, Convex<D, S>>(a, b, body_a.pose, body_b.pose, scale).rounding_floor()) / scale;
 }
 
 }  // namespace
