@@ -172,16 +172,17 @@ class BooleanGjk {
       const S inner = n.dot(w(f[2]) - w(0)), origin = n.dot(-w(0));
       if (inner > 0 ? origin >= 0 : inner < 0 ? origin <= 0 : false) continue;
       const Region candidate = triangle(0, f[0], f[1]);
-      if (const S distance = squared_distance(candidate); distance < nearest) nearest = distance, region = candidate;
+      if (const S distance = squared_distance(candidate); region.count == 0 || distance < nearest) nearest = distance, region = candidate;
     }
     return region.count == 0;
   }
 
-  /// For the rare origin beyond several faces: of their regions the nearest is the right one.
+  /// For the rare origin beyond several faces: of their regions the nearest is the right one. (a . d)^2 / d . d: across an edge d is of the third power of lengths, and
+  /// the square of the eighth, too large for float.
   S squared_distance(const Region& region) const {
     const V &a = w(region.index[0]), &d = region.direction;
     const S along = a.dot(d), length = d.dot(d);
-    return length > 0 ? along * along / length : S(0);
+    return length > 0 ? along / length * along : S(0);
   }
 
   void trace_kept(const std::array<int, 4>& kept, int count) {

@@ -71,7 +71,7 @@ class ClosedForm {
       : frame_(frame), trace_(trace), radius_a_(a.radius), radius_b_(b.radius) {
     const W along_a = pose_a.rotation * a.along, along_b = pose_b.rotation * b.along;
     const W start_a = a.centred ? W(along_a / -2) : W(pose_a.rotation * a.start), start_b = b.centred ? W(along_b / -2) : W(pose_b.rotation * b.start);
-    const W offset = pose_b.position * scale - pose_a.position * scale;
+    const W offset = (pose_b.position - pose_a.position) * scale;  // a place far out, times the scale of tiny bodies, may be no number
     a0_ = start_a.template cast<S>(), u_ = along_a.template cast<S>(), v_ = along_b.template cast<S>();
     c_ = W(start_a - (offset + start_b)).template cast<S>();
     uu_ = u_.dot(u_), uv_ = u_.dot(v_), vv_ = v_.dot(v_);

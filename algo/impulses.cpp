@@ -51,7 +51,7 @@ bool Impulses::rub(Contact& c, double least) {
   const double pressed = c.impulse.dot(c.normal);
   const V3 rubbed = c.impulse - pressed * c.normal, along = relative_velocity(c), slip = along - c.normal * c.normal.dot(along);
   V3 wanted = rubbed;
-  if (c.friction > 0 && slip.norm() > std::max(least, 1e-14)) wanted -= slip / slip.normalized().dot(change_by(c, slip.normalized()));
+  if (c.friction > 0 && slip.norm() > least) wanted -= slip / slip.normalized().dot(change_by(c, slip.normalized()));
   if (const double most = c.friction * std::max(0.0, pressed), size = wanted.norm(); size > most) wanted *= most / size;
   const V3 change = wanted - rubbed;
   if (!(change.norm() > 1e-12 * std::abs(pressed))) return false;

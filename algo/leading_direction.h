@@ -122,7 +122,8 @@ class LeadingDirection<Difference, true> {
   }
 
   /// Montaut et al. 2024, algorithm 3: with m = (k + 1) / (k + 3), y = m v + (1 - m) s (s the last support), the direction moves to
-  /// m d + (1 - m) y. For polytopes v and d enter with length 1, or the momentum of the far start outlives its use.
+  /// m d + (1 - m) y. For polytopes y = m v / |v| + (1 - m) d / |d|: lengths of 1, or the momentum of the far start outlives its use, and, unlike the
+  /// paper's, the last direction in the place of s.
   V nesterov(const Progress& at) {
     const S m = static_cast<S>(at.iterations + 1) / static_cast<S>(at.iterations + 3);
     const V v = at.v.template vector<D>(), y = options_.normalised ? V(m * v / at.distance + (1 - m) * momentum_.stableNormalized()) : V(m * v + (1 - m) * last_);

@@ -56,7 +56,10 @@ RelativePose<D, S> relative_pose(const PlacedAxes<D>& pose_a, const Vector<D, do
                                  const Vector<D, double>& reference_b, double scale) {
   using Two = DoubleDouble;
   Two offset[D];
-  for (int i = 0; i < D; ++i) offset[i] = Two::two_sum(pose_b.position[i] * scale, -(pose_a.position[i] * scale));
+  for (int i = 0; i < D; ++i) {
+    const Two apart = Two::two_sum(pose_b.position[i], -pose_a.position[i]);  // a place far out, times the scale of tiny bodies, may be no number
+    offset[i] = {apart.high * scale, apart.low * scale};
+  }
   for (int j = 0; j < D; ++j) {
     if (reference_b[j] != 0)
       for (int i = 0; i < D; ++i) offset[i] = offset[i] + Two::two_product(pose_b.rotation(i, j), reference_b[j]);

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "shapes/world_support.h"
 
@@ -22,7 +23,7 @@ AnyMatrix rotation_by(const AnyVector& angular_velocity, double time, int dimens
 
 std::vector<double> in_degrees(const AnyVector& radians) {
   std::vector<double> degrees;
-  for (const double x : radians) degrees.push_back(x * 180 / M_PI);
+  for (const double x : radians) degrees.push_back(x * 180 / std::numbers::pi);
   return degrees;
 }
 
@@ -64,20 +65,28 @@ Shape triangle_of(const Shape& mesh, std::size_t number) {
 namespace {
 
 template <int D>
-double reach(const Shape& shape) {
-  const Convex<D, double> convex(shape);
-  return convex.reference().norm() + convex.extent() + convex.radius();
+double reach(const Shape& shape, double scale, const Eigen::Vector3d& place) {
+  const Convex<D, double> convex(shape, scale);
+  return (convex.reference() - place.head<D>()).norm() + convex.extent() + convex.radius();
+}
+
+double scaled_reach(const Shape& shape, int dimension, double scale, const Eigen::Vector3d& place) {
+  const Mesh* mesh = std::get_if<Mesh>(&shape.geometry);
+  const PointSet* set = std::get_if<PointSet>(&shape.geometry);
+  if (mesh || set) {
+    double most = 0;
+    for (const AnyVector& p : mesh ? mesh->points : set->points) most = std::max(most, (in_space(p) * scale - place).norm());
+    return most + shape.margin * scale;
+  }
+  return dimension == 1 ? reach<1>(shape, scale, place) : dimension == 2 ? reach<2>(shape, scale, place) : reach<3>(shape, scale, place);
 }
 
 }  // namespace
 
-double reach_of(const Shape& shape, int dimension) {
-  if (const Mesh* mesh = std::get_if<Mesh>(&shape.geometry)) {
-    double most = 0;
-    for (const AnyVector& p : mesh->points) most = std::max(most, p.norm());
-    return most + shape.margin;
-  }
-  return dimension == 1 ? reach<1>(shape) : dimension == 2 ? reach<2>(shape) : reach<3>(shape);
+/// At a size near 1, by a power of two, which rounds nothing: squares of lengths below 1e-162 vanish.
+double reach_of(const Shape& shape, int dimension, const Eigen::Vector3d& place) {
+  const double size = size_of(shape), scale = size > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(size), -1000, 1000)) : 1;
+  return scaled_reach(shape, dimension, scale, place * scale) / scale;
 }
 
 TurningBound turning_bound(const Body& body, const AnyVector& angular_velocity, const AnyVector& n, double reach) {

@@ -29,8 +29,9 @@ std::vector<Shape> convex_parts(const Shape& shape);
 /// One of a mesh's, with its margin.
 Shape triangle_of(const Shape& mesh, std::size_t number);
 
-/// A length of the scene: no point of the body, its radius or margin included, is farther from its pose's position.
-double reach_of(const Shape& shape, int dimension);
+/// A length of the scene: no point of the body, its radius or margin included, is farther from `place`, which is in the body's frame (its first coordinates
+/// count): by default its pose's position.
+double reach_of(const Shape& shape, int dimension, const Eigen::Vector3d& place = Eigen::Vector3d::Zero());
 
 /// How far a turning body comes forward along a unit vector at most in a time t: speed t + change t^2 / 2.
 struct TurningBound {

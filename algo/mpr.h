@@ -19,6 +19,7 @@
 #include <cmath>
 #include <limits>
 
+#include "algo/orientation.h"
 #include "algo/signed_volumes.h"
 #include "algo/simplex.h"
 #include "algo/trace.h"
@@ -137,6 +138,7 @@ class Mpr {
       const V n = portal_normal();
       if (!(n.dot(w(0) - v0_) > floor_) || in_a_line()) return MprStatus::flat;
       const S distance = n.dot(w(0));
+      if (distance >= -floor_ && plane_is_noise() && !hull_holds_origin()) return give_up();
       if (distance >= -floor_) inside = true, lower_ = std::max(lower_, clearance(n, distance));
       trace_portal(n, distance);
       if (inside && !options_.depth) return MprStatus::overlapping;
@@ -181,6 +183,29 @@ class Mpr {
       return !(p.cross(q).norm() > floor_ * std::max(p.norm(), q.norm()));
     }
     return false;
+  }
+
+  /// A sliver's: the normal is off by 9 u over the sine between two sides, the plane by that times how far the corners are, by far more than supports round.
+  bool plane_is_noise() const {
+    if constexpr (D == 3) {
+      const V p = w(1) - w(0), q = w(2) - w(0);
+      const S far = std::max({w(0).norm(), w(1).norm(), w(2).norm()});
+      return 16 * std::numeric_limits<S>::epsilon() * far * (p.norm() * q.norm()) > 1000 * floor_ * p.cross(q).norm();
+    }
+    return false;
+  }
+
+  /// Whether the origin lies in the hull of v0 and the portal, by signs that are sure: on no face's outer side.
+  bool hull_holds_origin() const {
+    if constexpr (D == 3) {
+      const std::array<V, 4> v{v0_, w(0), w(1), w(2)};
+      for (int i = 0; i < 4; ++i) {
+        const V &x = v[(i + 1) % 4], &y = v[(i + 2) % 4], &z = v[(i + 3) % 4];
+        const int opposite = orientation<S>(x, y, z, v[i]), origin = orientation<S>(x, y, z, V(V::Zero()));
+        if (opposite == 0 || origin == -opposite) return false;
+      }
+    }
+    return true;
   }
 
   /// The ray leaves between the new vertex and all of the portal but one: that one goes.

@@ -24,11 +24,10 @@ template <class S>
 int determinant_sign_wide(const WideVector<S>& x, const WideVector<S>& y, const WideVector<S>& z) {
   const Wide<S> value = x.cross(y).dot(z);
   const double bound = std::ldexp(1.0, std::is_same_v<S, float> ? -48 : -98);
-  double terms = 0;  // a bound of the sum of |products|
   const auto size = [](const WideVector<S>& v) {
     return std::max({std::abs(double(v.c[0])), std::abs(double(v.c[1])), std::abs(double(v.c[2]))});
   };
-  terms = 6 * size(x) * size(y) * size(z);
+  const double terms = 6 * size(x) * size(y) * size(z);  // no less than the sum of |products|
   return std::abs(double(value)) <= bound * terms ? 0 : sign(value);
 }
 

@@ -66,7 +66,8 @@ class Projections {
       const bool nearer = distance <= least_ + floor_;
       if (nearer) least_ = std::min(least_, distance), nearest_ = a_;
       if constexpr (traced<Trace>) trace_(PointsProjected<V, Viewed>{result_.iterations, a_, b_, v, lower_bound(), upper_bound()});
-      if (on_a_.inside) return ProjectionsStatus::overlapping;  // b is of both
+      // b is of both. Or what is thinner than the numbers reach has led beyond them: of what is no number nothing says that it is outside.
+      if (on_a_.inside) return std::isnan(distance) ? ProjectionsStatus::undecided : ProjectionsStatus::overlapping;
       if (!(distance > floor_)) return ProjectionsStatus::undecided;
       if (!nearer) {
         if (!take_back()) return ProjectionsStatus::undecided;

@@ -42,7 +42,7 @@ struct Result {
   std::optional<std::array<int, 2>> pair;           ///< the bodies that meet
   std::optional<std::vector<FinalState>> bodies;    ///< after responses, or at the end of a simulation
   std::optional<double> energy;                     ///< of a simulation, at the end
-  std::string status;  ///< of the phase that gave the answer; "aborted": there is none, `intersecting` means nothing
+  std::string status;  ///< of the phase that gave the answer, of a mesh the nearest triangle's ("iteration_limit" where another that came to its limit may be nearer); "aborted": there is none, `intersecting` means nothing
   int iterations = 0;
   int support_calls = 0;  ///< all of them, those outside the trace too
 };

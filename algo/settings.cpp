@@ -159,7 +159,8 @@ double bare(Shape& shape) {
 }
 
 /// Of the body's core the point nearest to one of the body, in its frame; none where that is proven to lie outside, by more than rounding. Asked of our own GJK, in double.
-/// A point of the core to rounding stays as it is. Any other is moved, be it that curved sides keep GJK from telling: one that is no point of the core would make the bounds lie.
+/// A point that is of the core to rounding stays as it is. Any other is moved to the core's nearest, also one that GJK, on curved sides, cannot
+/// tell from a point of the core: a simplex with a vertex outside the difference would make the upper bound a lie.
 std::optional<AnyVector> core_point(const Body& body, const AnyVector& point, int dimension) {
   Shape core = body.shape;
   const double radius = bare(core), rounding = 16 * std::numeric_limits<double>::epsilon() * (size_of(body.shape) + point.norm());

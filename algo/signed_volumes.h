@@ -6,12 +6,12 @@
 // the face opposite to it, and the search goes on in that face.
 //
 //   2D, triangle A B C:           the sign of each weight says on which side of the
-//        \  beyond A  /           opposite edge the origin lies. One wrong sign: go to
-//         \          /            that edge. Two: the nearer of two edges decides, and
-//      ----A--------C----         the segment case finds the vertex if it must.
-//           \      /
-//            \ in /   beyond
-//             \  /     BC... 
+//        \ beyond AC  /           opposite edge the origin lies, B's for one beyond AC.
+//         \          /            One wrong sign: go to that edge. Two: the nearer of
+//      ----A--------C----         two edges decides, and the segment case finds the
+//           \      /              vertex if it must.
+//    beyond  \ in /  beyond
+//      AB     \  /     BC
 //              B
 //
 // Deviations: signs that rounding could flip are taken in twice the precision; a triangle too thin for plain

@@ -49,7 +49,7 @@ class Simulation {
     const MassProperties mass = mass_properties(body.shape, dimension_);
     b.center = mass.center;
     b.x = in_space(body.pose.position) + b.r * b.center;
-    b.reach = reach_of(body.shape, dimension_) + b.center.norm();
+    b.reach = reach_of(body.shape, dimension_, b.center);
     b.mass = m.mass;
     b.inverse_mass = m.is_static ? 0 : 1 / m.mass;
     if (m.is_static) return b;

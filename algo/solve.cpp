@@ -50,13 +50,24 @@ bool nearer(const Result& x, const Result& y) {
   return x.intersecting && !y.intersecting;
 }
 
-/// The union of the parts: as near as its nearest part, and its bounds are the least of theirs.
+/// Of a part whose search came to its limit: whether what is known of it leaves open that it is nearer than `nearest`.
+bool may_be_nearer(const Result& part, const Result& nearest) {
+  if (part.status != word_of(GjkStatus::iteration_limit)) return false;  // EPA's and MPR's limits are called the same
+  if (part.lower_bound && nearest.signed_distance) return *part.lower_bound < *nearest.signed_distance;
+  return !nearest.intersecting;
+}
+
+/// The union of the parts: as near as its nearest part, and its bounds are the least of theirs. Where another part may be nearer the search of the
+/// whole has come to its limit.
 void merge(std::optional<Result>& total, const Result& part) {
   if (!total) {
     total = part;
     return;
   }
-  Result merged = nearer(part, *total) ? part : *total;
+  const bool takes_over = nearer(part, *total);
+  const Result& other = takes_over ? *total : part;
+  Result merged = takes_over ? part : *total;
+  if (may_be_nearer(other, merged)) merged.status = other.status;
   merged.iterations = total->iterations + part.iterations;
   merged.support_calls = total->support_calls + part.support_calls;
   if (part.lower_bound && total->lower_bound) merged.lower_bound = std::min(*part.lower_bound, *total->lower_bound);
@@ -108,9 +119,10 @@ Result solve_scene(const Scene& scene, const Settings& settings, TraceSink* sink
 
 template <int D, class S>
 double floor_of(const Scene& scene) {
-  const Pose &pose_a = scene.bodies[0].pose, &pose_b = scene.bodies[1].pose;
-  const Convex<D, S> a(convex_parts(scene.bodies[0].shape)[0]), b(convex_parts(scene.bodies[1].shape)[0]);
-  return static_cast<double>(MinkowskiDifference<D, S, Convex<D, S>>(a, b, pose_a, pose_b, 1).rounding_floor());
+  const Body &body_a = scene.bodies[0], &body_b = scene.bodies[1];
+  const double scale = working_scale<S>(body_a, body_b);
+  const Convex<D, S> a(convex_parts(body_a.shape)[0], scale), b(convex_parts(body_b.shape)[0], scale);
+  return static_cast<double>(MinkowskiDifference<D, S, Convex<D, S>>(a, b, body_a.pose, body_b.pose, scale).rounding_floor()) / scale;
 }
 
 }  // namespace

@@ -17,15 +17,13 @@ struct Overloaded : Ts... {
 template <class... Ts>
 Overloaded(Ts...) -> Overloaded<Ts...>;
 
-/// The reference coordinate for values between low and high: the one of smaller magnitude when the two are
-/// within a factor of two, so that subtracting it is exact for everything between (Sterbenz); else zero.
+}  // namespace
+
 double exact_reference(double low, double high) {
   const double near = std::min(std::abs(low), std::abs(high)), far = std::max(std::abs(low), std::abs(high));
   if ((low > 0) != (high > 0) || near == 0 || far > 2 * near) return 0;
   return std::abs(low) < std::abs(high) ? low : high;
 }
-
-}  // namespace
 
 template <int D, class S>
 void Convex<D, S>::set_vertices(std::vector<Vector<D, double>> points, double scale, bool polygon) {
@@ -33,7 +31,7 @@ void Convex<D, S>::set_vertices(std::vector<Vector<D, double>> points, double sc
   for (const auto& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
   for (int i = 0; i < D; ++i) reference_[i] = exact_reference(low[i], high[i]);
   for (auto& p : points) {
-    p = (p - reference_) * scale;
+    p = (p - reference_) * scale;  // before it is squared: squares of lengths below 1e-162 vanish
     extent_ = std::max(extent_, p.norm());
   }
   reference_ *= scale;
@@ -56,9 +54,9 @@ void Convex<D, S>::set(const Geometry& g, double scale) {
     BoxCore<D, S> core;
     Vector<D, double> low = g.min, high = g.max;
     for (int i = 0; i < D; ++i) reference_[i] = exact_reference(low[i], high[i]);
-    low -= reference_, high -= reference_;
-    core.corners = {(high * scale).template cast<S>(), (low * scale).template cast<S>()};
-    extent_ = (low.cwiseAbs().cwiseMax(high.cwiseAbs()) * scale).norm();
+    low = (low - reference_) * scale, high = (high - reference_) * scale;
+    core.corners = {high.template cast<S>(), low.template cast<S>()};
+    extent_ = low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm();
     reference_ *= scale;
     vertices_ = 1 << D;
     core_ = core;

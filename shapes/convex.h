@@ -99,6 +99,10 @@ void SumCore<D, S>::add_derivative(const Matrix<D, S>& axes, const Vector<D, S>&
 /// take 0.6 (apart) to 1.0 (deep) of the scan's time with the table where 200 pairs are met in turn, and 0.9 to 1.2 where 1,000 are; of 32, 1.0 to 1.5 (measured with tables in pages of 4 KB).
 inline constexpr int table_from = 100;
 
+/// The reference coordinate for values between low and high: the one of smaller magnitude when the two are
+/// within a factor of two, so that subtracting it is exact for everything between (Sterbenz); else zero.
+double exact_reference(double low, double high);
+
 /// The shape's size: its largest coordinate, radius, half height or margin, in its own frame; of a sum the larger of both.
 double size_of(const Shape& shape);
 

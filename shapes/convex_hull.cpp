@@ -156,7 +156,7 @@ void connect(ConvexHull& hull) {
 }
 
 /// Whether no point sticks out of any face by more than rounding: what the hull's users take as exact must not be off by more than they round themselves.
-/// Of grids turned anyhow, which have points in their faces, none sticks out by more than a third of this.
+/// Of grids at any angle, which have points in their faces, none was seen to stick out by more than a third of this.
 constexpr double rounding = 5e-16;
 bool covers(const ConvexHull& hull, const std::vector<V3>& points, const std::vector<int>& used, double size) {
   if (hull.faces.size() * used.size() > 10'000'000) return true;  // too large to check in the time it is worth

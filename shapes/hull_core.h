@@ -137,9 +137,11 @@ class HullCore {
     return d.cwiseQuotient(box_);
   }
 
-  /// On a convex polytope a vertex with no higher neighbour is a highest one.
+  /// On a convex polytope a vertex with no higher neighbour is a highest one. Of vertices as high as one another, around a face across d, rounding may
+  /// find each higher than the one before, round and round; no way up comes by more vertices than there are.
   static int climb(const std::vector<V>& vertices, const ConvexHull& hull, int best, const V& d) {
-    for (int from = -1; from != best;) {
+    std::size_t left = vertices.size();
+    for (int from = -1; from != best && left > 0; --left) {
       from = best;
       for (const int other : around(hull, from))
         if ((vertices[static_cast<std::size_t>(other)] - vertices[static_cast<std::size_t>(best)]).dot(d) > 0) best = other;

@@ -1,5 +1,6 @@
 #include "shapes/mass.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -42,21 +43,43 @@ struct Moments {
   }
 };
 
+/// Where moments are taken, so that rounding leaves them: fifth powers of small lengths vanish, and of points far out the second moment about the centre is the
+/// difference of two large ones. Lengths near 1 by a power of two, places from a reference as in Convex: neither rounds anything.
+struct Nearby {
+  Point reference;
+  double scale;
+
+  explicit Nearby(const std::vector<AnyVector>& points) {
+    Point low = in_space(points.front()), high = low;
+    for (const AnyVector& p : points) low = low.cwiseMin(in_space(p)), high = high.cwiseMax(in_space(p));
+    for (int i = 0; i < 3; ++i) reference[i] = exact_reference(low[i], high[i]);
+    const double size = std::max((low - reference).cwiseAbs().maxCoeff(), (high - reference).cwiseAbs().maxCoeff());
+    scale = size > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(size), -1000, 1000)) : 1;
+  }
+  Point operator()(const AnyVector& p) const { return (in_space(p) - reference) * scale; }
+  MassProperties back(MassProperties m) const {
+    m.center = m.center / scale + reference;
+    m.inertia = m.inertia / scale / scale;
+    return m;
+  }
+};
+
 /// Solids by tetrahedra from one point, flat sets by triangles, rods by their segment.
 MassProperties of_points(const std::vector<AnyVector>& points, int dimension) {
   const ConvexHull hull = convex_hull(points, dimension);
-  const auto at = [&](int i) { return in_space(points[static_cast<std::size_t>(i)]); };
+  const Nearby nearby(points);
+  const auto at = [&](int i) { return nearby(points[static_cast<std::size_t>(i)]); };
   Moments m;
   const Point o = at(hull.vertices.front());
   if (hull.rank == 0) {
     MassProperties alone;
     alone.center = o;
-    return alone;
+    return nearby.back(alone);
   }
   if (hull.rank == 1) {
     const Point p = at(hull.vertices.back());
     m.add((p - o).norm(), {o, p});
-    return m.properties();
+    return nearby.back(m.properties());
   }
   for (const auto& face : hull.faces) {
     const Point a = at(face[0]);
@@ -66,7 +89,7 @@ MassProperties of_points(const std::vector<AnyVector>& points, int dimension) {
       else m.add((b - a).cross(c - a).norm() / 2, {a, b, c});  // in space a flat set has its polygon twice, which divides out
     }
   }
-  return m.properties();
+  return nearby.back(m.properties());
 }
 
 MassProperties diagonal(double x, double y, double z) {
@@ -143,9 +166,11 @@ MassProperties sampled(const Shape& shape) {
       d[0] = std::cos(t) * (D == 3 ? std::sin(u) : 1);
       if constexpr (D > 1) d[1] = std::sin(t) * (D == 3 ? std::sin(u) : 1);
       if constexpr (D > 2) d[2] = std::cos(u);
-      points.push_back(convex.reference() + convex.support(d) + convex.radius() * d.normalized());
+      points.push_back(convex.support(d) + convex.radius() * d.normalized());
     }
-  return of_points(points, D);
+  MassProperties m = of_points(points, D);
+  m.center += in_space(AnyVector(convex.reference()));
+  return m;
 }
 
 }  // namespace

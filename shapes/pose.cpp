@@ -43,16 +43,16 @@ void check_order(const std::string& order) {
   if (!valid) not_a_rotation("order must name three axes, no axis twice in a row, like \"xyz\" or \"zxz\"", "/euler/order");
 }
 
-/// R = I + s (w K + K K) with K the cross-product matrix of (x y z) and s = 2 / |q|^2: every entry is a quotient of
-/// products, correctly rounded for small integer quaternions.
+/// R = I + 2 (w K + K K) / |q|^2 with K the cross-product matrix of (x, y, z), all over |q|^2: every entry is a quotient of
+/// two sums of products, which are exact for small integer quaternions, and is then rounded once.
 M3 from_quaternion(const std::array<double, 4>& q) {
   const auto [w, x, y, z] = q;
-  const double s = w * w + x * x + y * y + z * z;
+  const double squared = w * w + x * x + y * y + z * z;
   M3 m;
   m << w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y),  //
       2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x),   //
       2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z;
-  return m / s;
+  return m / squared;
 }
 
 /// Rodrigues' formula: R = c I + s [u] + (1 - c) u u^T.

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "algo/solve.h"
+#include "tests/support/random_scenes.h"
 
 namespace gjkdbg {
 namespace {
@@ -27,6 +28,31 @@ TEST(BooleanGjk, NextToALine) {
         EXPECT_EQ(solve(scene, resolve_settings(method, scene)).intersecting, sign < 0) << gap * sign << " " << word_of(scalar);
       }
     }
+}
+
+/// Lengths about 2^17 are as large as float is reckoned in without a scale: eighth powers of them are no numbers any more.
+TEST(BooleanGjk, TheLargestLengthsInFloat) {
+  RandomScenes random(9);
+  int apart = 0;
+  for (int i = 0; i < 6000; ++i) {
+    constexpr double size = 1.3e5;
+    const auto point = [&] { return AnyVector(Eigen::Vector3d(random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size))); };
+    Scene scene;
+    for (const bool second : {false, true}) {
+      PointSet hull;
+      for (int k = 4 + i % 4; k > 0; --k) hull.points.push_back(point());
+      scene.bodies.push_back({"", {hull, 0}, identity_pose(3)});
+      if (second) scene.bodies.back().pose.position = point();
+    }
+    const Result truth = solve(scene, resolve_settings({}, scene));
+    if (std::abs(*truth.signed_distance) < 1e-3 * size) continue;
+    scene.query = Query::intersect;
+    Method method;
+    method.name = MethodName::gjk_boolean, method.scalar = Scalar::float_precision;
+    EXPECT_EQ(solve(scene, resolve_settings(method, scene)).intersecting, truth.intersecting) << i;
+    apart += !truth.intersecting;
+  }
+  EXPECT_GT(apart, 500);
 }
 
 }  // namespace

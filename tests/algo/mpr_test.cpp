@@ -56,5 +56,28 @@ TEST(Mpr, TheWitnessOfAPointIsThePoint) {
   EXPECT_TRUE(check(recording).empty());
 }
 
+/// Needles: the planes of slivers are noise, and what they say is not an answer.
+TEST(Mpr, SliversTellNoOverlap) {
+  RandomScenes random(3);
+  int apart = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Scene scene;
+    scene.query = Query::intersect;
+    const AnyVector half = Eigen::Vector3d(1000, 1e-3, 1e-6);
+    scene.bodies.push_back({"", {Sphere{1e-3}, 0}, identity_pose(3)});
+    scene.bodies.push_back({"", {Box{-half, half}, 0}, identity_pose(3)});
+    for (double& x : scene.bodies[1].pose.position) x = random.uniform(-3, 3);
+    scene.bodies[1].pose.matrix = random.rotation(3, Family::general);
+    Method method;
+    method.name = MethodName::mpr, method.scalar = Scalar::float_precision;
+    const Result r = solve(scene, resolve_settings(method, scene));
+    scene.query = Query::penetration;
+    if (!(*solve(scene, resolve_settings({}, scene)).signed_distance > 0.01)) continue;
+    EXPECT_FALSE(r.intersecting) << i << ": " << r.status;
+    ++apart;
+  }
+  EXPECT_GT(apart, 1500);
+}
+
 }  // namespace
 }  // namespace gjkdbg

@@ -186,6 +186,33 @@ TEST(Projections, WitnessesLieOnTheBodies) {
   std::printf("%d pairs apart, %d without a margin\n", used, plain);
 }
 
+/// Ellipsoids so thin that the numbers do not reach: steps that lead nowhere are no overlap.
+TEST(Projections, OfWhatIsNextToFlatClaimNoOverlap) {
+  RandomScenes random(31);
+  int apart = 0;
+  for (int i = 0; i < 300; ++i) {
+    const bool single = i % 2 == 0;
+    Scene scene = random.scene(3, Family::general, false);
+    AnyVector radii = AnyVector::Ones(3);
+    radii[i % 3] = single ? 1e-12 : 1e-100;
+    scene.bodies[0].shape = {Ellipsoid{radii}, 0};
+    const AnyVector half = AnyVector::Constant(3, 0.3);
+    if (i % 4 < 2) scene.bodies[1].shape = {Box{-half, half}, 0};
+    else scene.bodies[1].shape = {Capsule{0, 100, 1}, 0};
+    for (const Query query : {Query::distance, Query::intersect}) {
+      scene.query = query;
+      const Result truth = solve(scene, resolve_settings({}, scene)), r = solve(scene, projections(scene, single ? Scalar::float_precision : Scalar::double_precision));
+      if (query == Query::distance) {
+        ASSERT_TRUE(r.witness_a->allFinite() && r.witness_b->allFinite()) << i;
+        if (truth.intersecting || *truth.signed_distance < 1e-3) break;
+      }
+      EXPECT_FALSE(r.intersecting) << i << ", " << word_of(query);
+      ++apart;
+    }
+  }
+  EXPECT_GT(apart, 100);
+}
+
 TEST(Projections, AreRefusedWhereThereIsNoFormula) {
   Scene scene;
   scene.bodies = {Body{"A", {Sphere{1}, 0}, identity_pose(3)}, Body{"wedge", {PointSet{PointSetKind::hull, {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0)}, {}}, 0}, identity_pose(3)}};

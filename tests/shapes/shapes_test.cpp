@@ -188,6 +188,20 @@ TEST(Support, ADiscWithoutThicknessInFloat) {
   }
 }
 
+/// Points of a grid within a ball: of some of their faces, across which a cell of the table looks, rounding finds each corner higher than the one before, all the
+/// way round. Whoever climbs as long as there is a higher one never comes back.
+TEST(Support, TheTableOfAHullWithCornersHigherThanOneAnother) {
+  PointSet grid{PointSetKind::hull, {}, {}};
+  constexpr double spacing = 0.046928760239587371;
+  for (int x = -9; x <= 9; ++x)
+    for (int y = -9; y <= 9; ++y)
+      for (int z = -9; z <= 9; ++z)
+        if (x * x + y * y + z * z <= 85) grid.points.push_back(any(spacing * V3(x, y, z)));
+  const Convex<3, float> hull(Shape{grid, 0});
+  ASSERT_TRUE(std::holds_alternative<HullCore<float>>(hull.core()));
+  EXPECT_FLOAT_EQ(hull.support(Eigen::Vector3f(1, 0, 0))[0], static_cast<float>(9 * spacing));
+}
+
 /// Of the smallest lengths, too, whose areas' squares are no numbers.
 TEST(Hull, IsTheSameAtEveryScale) {
   RandomScenes random(17);
