@@ -52,13 +52,6 @@ struct SatWorkspace {
   std::vector<SatEdge<D, S>> edges_a, edges_b;
 };
 
-/// One a thread.
-template <int D, class S>
-SatWorkspace<D, S>& sat_workspace() {
-  thread_local SatWorkspace<D, S> workspace;
-  return workspace;
-}
-
 template <class Difference, class Trace>
 class Sat {
   static constexpr int D = Difference::D;

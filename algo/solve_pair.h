@@ -15,6 +15,7 @@
 #include "algo/epa.h"
 #include "algo/gjk.h"
 #include "algo/johnson.h"
+#include "algo/lent.h"
 #include "algo/mpr.h"
 #include "algo/polygon_sat.h"
 #include "algo/projections.h"
@@ -25,13 +26,6 @@
 #include "algo/world_trace.h"
 
 namespace gjkdbg {
-
-/// EPA's storage: one a thread, not one a pair, so that it stays in the cache. Looked up where EPA runs, and only there.
-template <int D, class S>
-EpaWorkspace<D, S>& epa_workspace() {
-  thread_local EpaWorkspace<D, S> workspace;
-  return workspace;
-}
 
 template <int D, class S, class Trace, class A = Convex<D, S>, class B = A>
 class PairSolver {
@@ -156,7 +150,8 @@ class PairSolver {
     EpaOptions<S> options;
     options.tolerance = static_cast<S>(settings_.tolerance);
     options.max_iterations = settings_.max_iterations;
-    const EpaResult<D, S> found = epa(difference_, gjk_.simplex, options, epa_workspace<D, S>(), trace_);
+    Lent<EpaWorkspace<D, S>> workspace;  // looked up where EPA runs, and only there
+    const EpaResult<D, S> found = epa(difference_, gjk_.simplex, options, *workspace, trace_);
     result_->status = word_of(found.status);
     result_->iterations += found.iterations;
     set_bounds(-found.upper_bound, -found.lower_bound);
@@ -238,7 +233,8 @@ class PairSolver {
       const PolygonOf<S> a(difference_.a()), b(difference_.b());
       if (a.polygon && b.polygon) return solids_decide(PolygonSat<Difference, Trace>(difference_, *a.polygon, *b.polygon, trace_), query);
     }
-    Sat<Difference, Trace> sat(difference_, features_a_->get(), features_b_->get(), difference_.rotation(), sat_workspace<D, S>(), trace_);
+    Lent<SatWorkspace<D, S>> workspace;
+    Sat<Difference, Trace> sat(difference_, features_a_->get(), features_b_->get(), difference_.rotation(), *workspace, trace_);
     if (!sat.spans()) {
       if constexpr (traced<Trace>)
         trace_(Warning<V, Viewed>{"flat-difference", "The difference of the bodies has no volume, or a body next to none: faces and edges alone do not decide. GJK does."});

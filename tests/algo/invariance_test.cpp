@@ -275,6 +275,36 @@ TEST(Trace, EpaStallsWherePrecisionEnds) {
   EXPECT_GT(stalled, 0);
 }
 
+/// Asks another scene's query at every event.
+class Asking : public SinkTaking<Asking> {
+ public:
+  Asking(const Scene& scene, const Method& method) : scene_(scene), settings_(resolve_settings(method, scene)) {}
+  template <class Event>
+  void take(const Event&) {
+    last_ = solve(scene_, settings_);
+  }
+  const Result& last() const { return last_; }
+
+ private:
+  const Scene& scene_;
+  const Settings settings_;
+  Result last_;
+};
+
+TEST(Trace, ASinkMayAskAnotherQuery) {
+  RandomScenes random(31);
+  for (int k = 0; k < 60 && !testing::Test::HasFailure(); ++k) {
+    Scene scene = random.scene(2 + k % 2, Family::general, true), other = random.scene(2 + k % 2, Family::general, true);
+    for (Scene* s : {&scene, &other}) s->bodies[1].pose.position = s->bodies[0].pose.position;  // EPA runs
+    Method method;
+    method.name = k / 2 % 2 == 0 ? MethodName::gjk : MethodName::sat;
+    Asking sink(other, method);
+    const Settings settings = resolve_settings(method, scene);
+    EXPECT_EQ(text(solve(scene, settings, sink)), text(solve(scene, settings))) << "scene " << k;
+    EXPECT_EQ(text(sink.last()), text(answer(other, method))) << "scene " << k;
+  }
+}
+
 /// Faces of bodies of 1e-170 have areas that are no numbers; the ways they face are told all the same.
 TEST(Invariance, SatHasItsAxesInAnyUnit) {
   RandomScenes random(23);
