@@ -133,9 +133,9 @@ struct SimulationCheck {
 
   void sinking(const recorded::ContactFound& contact) const {
     double size = 1e300;
-    for (const int i : contact.pair) size = std::min(size, reach_of(scene.bodies[static_cast<std::size_t>(i)].shape, scene.dimension));
+    for (const auto i : {static_cast<std::size_t>(contact.pair[0]), static_cast<std::size_t>(contact.pair[1])}) size = std::min(size, reach_of(scene.bodies[i].shape, scene.dimension, mass[i].center));
     if (contact.depth > 0.5 * size)
-      c.find("sinking", "Body " + std::to_string(contact.pair[1]) + " has sunk " + text_of(contact.depth) + " into body " + std::to_string(contact.pair[0]) + ", more than half its size: the time step is too long for its speed, or nothing holds it.", Finding::Severity::warning);
+      c.find("sinking", "Body " + std::to_string(contact.pair[1]) + " has sunk " + text_of(contact.depth) + " into body " + std::to_string(contact.pair[0]) + ", more than half its size: the time step is too long for its speed, nothing holds it, or it began there.", Finding::Severity::warning);
   }
 
   void walk() {

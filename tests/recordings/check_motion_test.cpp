@@ -178,6 +178,21 @@ TEST(CheckMotion, AGainIsToldInAsManyDigitsAsItTakes) {
   EXPECT_NE(all.substr(x, to - x), all.substr(y, all.find(' ', y) - y)) << all;
 }
 
+/// A cube around a place of its frame that lies `off` from the pose: as large wherever that is.
+std::string sunk(double off, double height) {
+  std::string points;
+  for (int k = 0; k < 8; ++k) points += (k == 0 ? "[" : ", [") + std::to_string(off + (k & 1 ? 0.5 : -0.5)) + (k & 2 ? ", 0.5" : ", -0.5") + (k & 4 ? ", 0.5]" : ", -0.5]");
+  return told(record(parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "simulate", "steps": 2, "gravity": [0, -9.81, 0], "bodies": [
+    {"shape": {"type": "box", "half_extents": [5, 1, 5]}, "static": true, "pose": {"position": [0, -1, 0]}},
+    {"shape": {"type": "hull", "points": [)" + points + R"(]}, "mass": 1, "pose": {"position": [)" + std::to_string(-off) + ", " + std::to_string(height) + R"(, 0]}}]})", {})));
+}
+TEST(CheckMotion, SinkingIsToldByTheSizeOfTheBody) {
+  for (const double off : {0.0, 100.0}) {
+    EXPECT_NE(sunk(off, -0.1).find("sinking"), std::string::npos) << off;
+    EXPECT_EQ(sunk(off, 0.3).find("sinking"), std::string::npos) << off;
+  }
+}
+
 Recording cast_by(SceneFile scene, MethodName method, int limit) {
   scene.method.name = method;
   scene.method.max_iterations = limit;
