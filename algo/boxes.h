@@ -33,6 +33,7 @@
 
 #include "algo/nearest_points.h"
 #include "algo/trace.h"
+#include "shapes/triple.h"
 
 namespace gjkdbg {
 
@@ -41,14 +42,7 @@ namespace gjkdbg {
 /// that took a third of the time.
 template <class S>
 class Boxes {
-  struct Triple {
-    S x, y, z;
-    [[gnu::always_inline]] Triple operator+(const Triple& t) const { return {x + t.x, y + t.y, z + t.z}; }
-    [[gnu::always_inline]] Triple operator-(const Triple& t) const { return {x - t.x, y - t.y, z - t.z}; }
-    [[gnu::always_inline]] Triple operator*(S s) const { return {x * s, y * s, z * s}; }
-    [[gnu::always_inline]] S dot(const Triple& t) const { return x * t.x + y * t.y + z * t.z; }
-    [[gnu::always_inline]] operator Vector<3, S>() const { return {x + 0, y + 0, z + 0}; }  // no negative zero
-  };
+  using Triple = gjkdbg::Triple<S>;
 
  public:
   static constexpr int axes = 15;  ///< A's faces, B's faces, edges of both
@@ -81,9 +75,9 @@ class Boxes {
   /// Unit, towards B.
   template <int k>
   Vector<3, S> normal() const {
-    if constexpr (k < 3) return face<true, k>().normal;
-    else if constexpr (k < faces) return rotated(face<false, k - 3>().normal);
-    else return Edges<(k - faces) / 3, (k - faces) % 3>(*this).normal();
+    if constexpr (k < 3) return unsigned_zeros(face<true, k>().normal);
+    else if constexpr (k < faces) return unsigned_zeros(rotated(face<false, k - 3>().normal));
+    else return unsigned_zeros(Edges<(k - faces) / 3, (k - faces) % 3>(*this).normal());
   }
   static AxisSource source(int k) { return k < 3 ? AxisSource::face_a : k < faces ? AxisSource::face_b : AxisSource::edge_pair; }
 
@@ -125,6 +119,8 @@ class Boxes {
   static S greater(S x, S y) { return x < y ? y : x; }
   static S lesser(S x, S y) { return y < x ? y : x; }
   static S clamped(S x, S half) { return lesser(greater(x, -half), half); }
+  /// Zeros without a sign.
+  [[gnu::always_inline]] static Vector<3, S> unsigned_zeros(const Triple& t) { return {t.x + 0, t.y + 0, t.z + 0}; }
   /// The element i, and the two that follow it.
   template <int i>
   [[gnu::always_inline]] static Triple cyclic(S at_i, S at_k, S at_l) { return i == 0 ? Triple{at_i, at_k, at_l} : i == 1 ? Triple{at_l, at_i, at_k} : Triple{at_k, at_l, at_i}; }
@@ -300,7 +296,7 @@ class Boxes {
   /// The points across a facet that p is beside.
   BoxPoints<3, S> across_facet(const Facet& f, S most, S floor) const {
     BoxPoints<3, S> found;
-    found.a = f.on, found.b = f.on + f.normal * f.separation, found.normal = f.normal;
+    found.a = unsigned_zeros(f.on), found.b = unsigned_zeros(f.on + f.normal * f.separation), found.normal = unsigned_zeros(f.normal);
     found.distance = f.separation, found.lower_bound = most;
     found.axes = axes - parallel_;
     found.apart = most > floor, found.corner = false, found.proven = (f.beyond <= floor * floor) & (most - f.separation <= 2 * floor);
@@ -313,7 +309,7 @@ class Boxes {
     const Triple n{f.off.x / distance, f.off.y / distance, f.off.z / distance};
     const S apart = plane(n.x, n.y, n.z);
     BoxPoints<3, S> found;
-    found.a = f.on, found.b = f.on + f.off, found.normal = n;
+    found.a = unsigned_zeros(f.on), found.b = unsigned_zeros(f.on + f.off), found.normal = unsigned_zeros(n);
     found.distance = distance, found.lower_bound = greater(most, apart);
     found.axes = axes - parallel_;
     found.apart = true, found.corner = f.beyond > floor * floor, found.proven = distance - apart <= 2 * floor;
