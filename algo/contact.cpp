@@ -9,6 +9,7 @@
 #include "algo/flat_feature.h"
 #include "algo/status.h"
 #include "algo/working_scale.h"
+#include "shapes/features.h"
 
 namespace gjkdbg {
 namespace {
@@ -147,12 +148,11 @@ std::optional<Points> line_across(const FlatFeature& feature, const AnyVector& n
   return best;
 }
 
-/// The part of b beside a, if both lie across n and along one another.
-Points line_beside_line(const std::optional<Points>& a, const std::optional<Points>& b) {
-  if (!a || !b) return {};
-  const Eigen::Vector3d u = (*a)[1] - (*a)[0], v = (*b)[1] - (*b)[0];
+/// The part of b beside a, if they lie along one another.
+Points line_beside_line(const Points& a, const Points& b) {
+  const Eigen::Vector3d u = a[1] - a[0], v = b[1] - b[0];
   if (u.cross(v).norm() > parallel_sine * u.norm() * v.norm()) return {};
-  return clipped(clipped(*b, u, (*a)[1]), -u, (*a)[0]);
+  return clipped(clipped(b, u, a[1]), -u, a[0]);
 }
 
 /// The points of the incident feature's outline that lie behind the reference, or above it, and of the reference's outline above the incident feature.
@@ -209,7 +209,8 @@ SharedPoints shared_points(const Body& a, const Body& b, const AnyVector& n) {
   const double size = reference.size + incident.size + reference.radius + incident.radius;
   if (reference.alignment < alignment_limit) {
     const auto line_a = line_across(*face_a, n), line_b = line_across(*face_b, -n);
-    return {behind(line_beside_line(line_a, line_b), line_a ? (*line_a)[0] : n, n, face_a->radius, *face_b, size, true), size};
+    if (!line_a || !line_b) return {{}, size};
+    return {behind(line_beside_line(*line_a, *line_b), (*line_a)[0], n, face_a->radius, *face_b, size, true), size};
   }
   const AnyVector outward = reference_is_a ? n : AnyVector(-n), on_face = reference.disc ? AnyVector(reference.disc->center) : reference.points[0];
   return {behind(common_outline(incident, reference, outward), on_face, outward, reference.radius, incident, size, reference_is_a), size};

@@ -5,6 +5,7 @@
 
 #include "shapes/convex_hull.h"
 #include "shapes/corners.h"
+#include "shapes/features.h"
 
 namespace gjkdbg {
 namespace {
@@ -107,21 +108,6 @@ std::optional<FlatFeature> flat_feature(const Body& body, const AnyVector& direc
     found->disc->normal = AnyVector(body.pose.matrix * found->disc->normal);
   }
   return found;
-}
-
-AnyVector normal_of(const Points& face) {
-  const int dimension = static_cast<int>(face[0].size());
-  if (dimension == 2) {
-    const AnyVector e = face[1] - face[0];
-    return Eigen::Vector2d(e[1], -e[0]).normalized();
-  }
-  // Newell's sum: the vector area, whatever the polygon's corners are.
-  Eigen::Vector3d area = Eigen::Vector3d::Zero();
-  for (std::size_t i = 1; i + 1 < face.size(); ++i) {
-    const Eigen::Vector3d x = face[i] - face[0], y = face[i + 1] - face[0];
-    area += x.cross(y);
-  }
-  return area.stableNormalized();
 }
 
 }  // namespace gjkdbg

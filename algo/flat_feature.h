@@ -25,7 +25,4 @@ struct FlatFeature {
 /// `direction`: unit. Nothing for ellipsoids, for sums of round shapes, and on a line.
 std::optional<FlatFeature> flat_feature(const Body& body, const AnyVector& direction);
 
-/// Unit, the outward one of a face whose corners are in order (in the plane: of an edge).
-AnyVector normal_of(const std::vector<AnyVector>& face);
-
 }  // namespace gjkdbg

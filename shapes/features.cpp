@@ -10,17 +10,11 @@
 namespace gjkdbg {
 namespace {
 
-using Point3 = Vector<3, double>;
-
-/// Newell's sum: twice the polygon's area vector, exact for flat polygons of any number of corners.
+/// Of the points of a loop.
 AnyVector polygon_normal(const std::vector<AnyVector>& points, const std::vector<int>& loop) {
-  Point3 sum = Point3::Zero();
-  const Point3 first = points[static_cast<std::size_t>(loop[0])];
-  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-    const Point3 p = points[static_cast<std::size_t>(loop[i])], q = points[static_cast<std::size_t>(loop[i + 1])];
-    sum += (p - first).cross(q - first);
-  }
-  return sum.stableNormalized();
+  std::vector<AnyVector> corners;
+  for (const int i : loop) corners.push_back(points[static_cast<std::size_t>(i)]);
+  return normal_of(corners);
 }
 
 void add_distinct(std::vector<AnyVector>& list, const AnyVector& n) {
@@ -53,8 +47,7 @@ Features features_3d(const std::vector<AnyVector>& points, const ConvexHull& hul
 Features features_2d(const std::vector<AnyVector>& points, const ConvexHull& hull) {
   Features features;
   const auto add = [&](int i, int j) {
-    const AnyVector e = points[static_cast<std::size_t>(j)] - points[static_cast<std::size_t>(i)];
-    add_distinct(features.face_normals, Vector<2, double>(e[1], -e[0]).stableNormalized());
+    add_distinct(features.face_normals, normal_of({points[static_cast<std::size_t>(i)], points[static_cast<std::size_t>(j)]}));
   };
   for (const auto& loop : hull.faces)
     for (std::size_t i = 0; i < loop.size(); ++i) add(loop[i], loop[(i + 1) % loop.size()]);
@@ -84,6 +77,20 @@ void near_one(std::vector<AnyVector>& points) {
 }
 
 }  // namespace
+
+AnyVector normal_of(const std::vector<AnyVector>& face) {
+  if (face[0].size() == 2) {
+    const AnyVector e = face[1] - face[0];
+    return Eigen::Vector2d(e[1], -e[0]).stableNormalized();
+  }
+  // Newell's sum: twice the vector area, whatever the polygon's corners are.
+  Eigen::Vector3d area = Eigen::Vector3d::Zero();
+  for (std::size_t i = 1; i + 1 < face.size(); ++i) {
+    const Eigen::Vector3d x = face[i] - face[0], y = face[i + 1] - face[0];
+    area += x.cross(y);
+  }
+  return area.stableNormalized();
+}
 
 std::optional<Features> features_of(const Shape& shape, int dimension) {
   auto corners = corners_of(shape, dimension);

@@ -8,6 +8,9 @@
 
 namespace gjkdbg {
 
+/// Unit, the outward one of a face whose corners are in order (in the plane: of an edge).
+AnyVector normal_of(const std::vector<AnyVector>& face);
+
 struct EdgeFeature {
   AnyVector direction;    ///< unit
   AnyVector left, right;  ///< outward unit normals of the two faces it joins; empty (size() 0) when the polytope is no solid

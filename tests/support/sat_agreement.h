@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <variant>
 
 #include "algo/solve.h"
+#include "recordings/recording.h"
 #include "shapes/world_support.h"
 #include "tests/oracle/exact_polytopes.h"
 
@@ -23,6 +26,30 @@ inline Settings sat(const Scene& scene, Scalar scalar = Scalar::double_precision
 inline double across(const Scene& scene, const AnyVector& n) {
   const AnyVector a = WorldSupport(scene.bodies[0], scene.dimension)(n, true), b = WorldSupport(scene.bodies[1], scene.dimension)(-n, true);
   return n.dot(b - a);
+}
+
+/// SAT of two polytopes that are apart: the distance within 1e-14, and projections that lead nearer and nearer, with bounds that hold, on points of both
+/// bodies (`outside`: how far a point lies outside one, at most). Says how many projections there were.
+inline int projections_of_sat(const Scene& scene, double exact, double (*outside)(const Body&, const AnyVector&)) {
+  Recorder recorder;
+  const Result r = solve(scene, sat(scene), recorder);
+  EXPECT_EQ(r.status, "separated");
+  EXPECT_NEAR(*r.signed_distance, exact, 1e-14);
+  double lower = -std::numeric_limits<double>::infinity(), upper = std::numeric_limits<double>::infinity();
+  int steps = 0;
+  for (const auto& event : recorder.take_all())
+    if (const auto* e = std::get_if<recorded::PointsProjected>(&event)) {
+      EXPECT_LE(e->upper_bound, upper + 1e-15) << "a projection never leads away";
+      EXPECT_LE(lower = e->lower_bound, exact);
+      EXPECT_GE(upper = e->upper_bound, exact);
+      EXPECT_LE(outside(scene.bodies[0], e->a), 1e-14);
+      EXPECT_LE(outside(scene.bodies[1], e->b), 1e-14);
+      ++steps;
+    }
+  if (steps > 0) {
+    EXPECT_LE(upper - lower, 1e-13);
+  }
+  return steps;
 }
 
 struct SatAgreement {
