@@ -35,7 +35,8 @@ struct AtlasCommand {
     const std::filesystem::path folder(output);
     write_output((folder / "atlas.csv").string(), atlas_csv(atlas));
     write_output((folder / "atlas.json").string(), atlas_json(atlas));
-    draw_both([&](const std::string& terminal, const std::string& file) { return atlas_gnuplot(atlas, terminal, file); }, folder / "atlas", 500 + 42 * static_cast<int>(atlas.methods.size()), 1000);
+    const auto [width, height] = atlas_picture_size(atlas);
+    draw_both([&](const std::string& terminal, const std::string& file) { return atlas_gnuplot(atlas, terminal, file); }, folder / "atlas", width, height);
     print(atlas);
     return compare(atlas, kept) ? exit_difference : exit_done;
   }

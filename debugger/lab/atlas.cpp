@@ -235,36 +235,4 @@ std::string atlas_json(const Atlas& atlas) {
   return pretty_json(out) + "\n";
 }
 
-namespace {
-
-/// What stands in a cell of the heat map: the verdict's mark and the size of the error.
-std::string label(const AtlasCell& cell) {
-  if (cell.verdict == Verdict::not_applicable) return "-";
-  const std::string mark = verdict_marks[static_cast<std::size_t>(cell.verdict)];
-  if (cell.verdict == Verdict::crashed) return mark;
-  char text[32];
-  std::snprintf(text, sizeof text, "%.0e", cell.worst_error);
-  return mark + (cell.worst_error == 0 ? "0" : text);
-}
-
-}  // namespace
-
-std::string atlas_gnuplot(const Atlas& atlas, const std::string& terminal, const std::string& file) {
-  std::string out = "set terminal " + terminal + "\nset output '" + file + "'\nset title 'Stability where methods fail: the worst of each family' font ',14'\nset lmargin 12\nset rmargin 30\nset bmargin 9\n";
-  // Right is blue-green, towards vermilion the more serious; the mark says it too.
-  out += "set palette maxcolors 9 defined (0 '#009E73', 1 '#9BD7C3', 2 '#F0E442', 3 '#E69F00', 4 '#CC79A7', 5 '#D55E00', 6 '#7A3B00', 7 '#000000', 8 '#E6E6E6')\nset cbrange [-0.5:8.5]\nset cbtics (";
-  for (std::size_t i = 0; i < verdict_names.size(); ++i) out += (i > 0 ? ", " : "") + std::string("'") + verdict_marks[i] + (*verdict_marks[i] ? "  " : "") + verdict_names[i] + "' " + std::to_string(i);
-  out += ")\nset xrange [-0.5:" + std::to_string(atlas.methods.size()) + "-0.5]\nset yrange [" + std::to_string(atlas.families.size()) + "-0.5:-0.5]\nset xtics rotate by 40 right (";
-  for (std::size_t m = 0; m < atlas.methods.size(); ++m) out += (m > 0 ? ", " : "") + std::string("'") + atlas.methods[m].name + "' " + std::to_string(m);
-  out += ")\nset ytics (";
-  for (std::size_t f = 0; f < atlas.families.size(); ++f) out += (f > 0 ? ", " : "") + std::string("'") + atlas.families[f].name + "' " + std::to_string(f);
-  out += ")\nunset key\nplot '-' using 1:2:3 with image, '-' using 1:2:3:4 with labels font ',8' textcolor rgb variable\n";
-  for (std::size_t f = 0; f < atlas.families.size(); ++f)
-    for (std::size_t m = 0; m < atlas.methods.size(); ++m) out += std::to_string(m) + " " + std::to_string(f) + " " + std::to_string(static_cast<int>(atlas.cells[f][m].verdict)) + "\n";
-  out += "e\n";
-  for (std::size_t f = 0; f < atlas.families.size(); ++f)
-    for (std::size_t m = 0; m < atlas.methods.size(); ++m) out += std::to_string(m) + " " + std::to_string(f) + " " + label(atlas.cells[f][m]) + (atlas.cells[f][m].verdict == Verdict::crashed ? " 0xFFFFFF\n" : " 0x000000\n");
-  return out + "e\n";
-}
-
 }  // namespace gjkdbg

@@ -1,6 +1,7 @@
 // The stability atlas: families of pairs where methods fail, swept, every method a column; exact answers by closed forms.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -67,6 +68,8 @@ Atlas make_atlas(bool quick, const std::vector<Variant>& methods, const std::fun
 
 std::string atlas_csv(const Atlas& atlas);
 std::string atlas_json(const Atlas& atlas);
+/// Commands for gnuplot that draw a heat map with the given terminal, which is to have this size, into `file`.
 std::string atlas_gnuplot(const Atlas& atlas, const std::string& terminal, const std::string& file);
+std::array<int, 2> atlas_picture_size(const Atlas& atlas);  ///< width and height in pixels
 
 }  // namespace gjkdbg

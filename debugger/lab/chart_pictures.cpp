@@ -4,11 +4,10 @@
 #include <cstdio>
 
 #include "debugger/lab/chart.h"
+#include "debugger/lab/gnuplot.h"
 
 namespace gjkdbg {
 namespace {
-
-std::string quoted(const std::string& text) { return "'" + text + "'"; }
 
 constexpr double smallest_drawn = 1e-17;  ///< what zero is drawn at
 
@@ -57,12 +56,12 @@ class Page {
  public:
   Page(const std::string& terminal, const std::string& file, const ChartPicture& size, std::size_t panels, std::size_t most_columns)
       : width_(size.width), height_(size.height), columns_(std::clamp<std::size_t>(panels, 1, most_columns)), rows_(std::max<std::size_t>(1, (panels + columns_ - 1) / columns_)), panels_(panels) {
-    out_ = "set encoding utf8\nset micro\nset terminal " + terminal + "\nset output " + quoted(file) +
+    out_ = "set encoding utf8\nset micro\nset terminal " + terminal + "\nset output " + quoted_for_gnuplot(file) +
            "\nset multiplot\nset border 3 lc rgb '#8a93a0'\nset tics nomirror scale 0.5 textcolor rgb '#30363f' font ',10'\nset grid lc rgb '#e3e7ec' lt 1\nset mxtics 1\nset mytics 1\nunset key\nset bars 0.4\n";
   }
 
   void title(const std::string& text, const std::string& note) {
-    out_ += "set label 1 " + quoted(text) + " at screen " + at(24, 24) + " font ',15' textcolor rgb '#14171d'\nset label 2 " + quoted(note) + " at screen " + at(24, 50) + " font ',10' textcolor rgb '#5a6472'\n";
+    out_ += "set label 1 " + quoted_for_gnuplot(text) + " at screen " + at(24, 24) + title_look + "\nset label 2 " + quoted_for_gnuplot(note) + " at screen " + at(24, 50) + note_look + "\n";
   }
   void tell(const std::string& command) { out_ += command + "\n"; }
 
@@ -72,10 +71,10 @@ class Page {
     const double left = left_margin + static_cast<double>(column) * (panel_width() + across), top = head + static_cast<double>(row) * (panel_height() + below);
     out_ += "set lmargin at screen " + share(left, width_) + "\nset rmargin at screen " + share(left + panel_width(), width_) + "\nset tmargin at screen " + share(height_ - top, height_) + "\nset bmargin at screen " +
             share(height_ - top - panel_height(), height_) + "\n";
-    out_ += "set label 3 " + quoted(name) + " at screen " + at(left, top - 14) + " font ',11' textcolor rgb '#14171d'\n";
+    out_ += "set label 3 " + quoted_for_gnuplot(name) + " at screen " + at(left, top - 14) + " font ',11' textcolor rgb '#14171d'\n";
     const bool last_in_column = count_ + columns_ >= panels_;
-    out_ += last_in_column ? "set xlabel " + quoted(x) + " font ',10' textcolor rgb '#5a6472'\n" : "unset xlabel\n";
-    out_ += column == 0 ? "set ylabel " + quoted(y) + " font ',10' textcolor rgb '#5a6472'\n" : "unset ylabel\n";
+    out_ += last_in_column ? "set xlabel " + quoted_for_gnuplot(x) + " font ',10' textcolor rgb '#5a6472'\n" : "unset xlabel\n";
+    out_ += column == 0 ? "set ylabel " + quoted_for_gnuplot(y) + " font ',10' textcolor rgb '#5a6472'\n" : "unset ylabel\n";
     plot(curves);
     if (count_++ == 0) out_ += "unset label 1\nunset label 2\n";
     for (const Curve& curve : curves)
@@ -90,11 +89,11 @@ class Page {
     for (const Curve& curve : told_) {
       const double room = 58 + 6.9 * static_cast<double>(curve.name.size());
       if (x + room > width_ - 10) x = left_margin, y += 22;
-      const std::string colour = std::string(" lc rgb ") + quoted(curve.style.colour);
+      const std::string colour = std::string(" lc rgb ") + quoted_for_gnuplot(curve.style.colour);
       if (curve.drawn == Curve::Drawn::line || curve.drawn == Curve::Drawn::line_and_deviations)
         out_ += "set arrow " + std::to_string(mark) + " from screen " + at(x, y) + " to screen " + at(x + 26, y) + " nohead lw 1.6" + colour + (curve.style.dashed ? " dt 2" : "") + "\n";
       out_ += "set label " + std::to_string(mark) + " '' at screen " + at(x + 13, y) + " point" + point_of(curve) + colour + "\n";
-      out_ += "set label " + std::to_string(mark + 100) + " " + quoted(curve.name) + " at screen " + at(x + 34, y) + " left font ',10' textcolor rgb '#30363f'\n";
+      out_ += "set label " + std::to_string(mark + 100) + " " + quoted_for_gnuplot(curve.name) + " at screen " + at(x + 34, y) + " left font ',10' textcolor rgb '#30363f'\n";
       ++mark, x += room;
     }
     out_ += "set xrange [0:1]\nset yrange [0:1]\nplot NaN notitle\nunset multiplot\n";
@@ -118,7 +117,7 @@ class Page {
       if (curve.dots.empty()) continue;
       const bool deviations = curve.drawn == Curve::Drawn::line_and_deviations || (curve.drawn == Curve::Drawn::squares && curve.dots.front().deviation > 0);
       const bool points = curve.drawn == Curve::Drawn::squares || curve.drawn == Curve::Drawn::rings;
-      const std::string colour = std::string(" lc rgb ") + quoted(curve.style.colour) + (curve.style.dashed ? " dt 2" : "");
+      const std::string colour = std::string(" lc rgb ") + quoted_for_gnuplot(curve.style.colour) + (curve.style.dashed ? " dt 2" : "");
       if (deviations) command += "'-' using 1:2:3 with yerrorbars pt 0 lw 0.8" + colour + ", ";
       command += std::string("'-' using 1:2 with ") + (points ? "points" : "linespoints lw 1.4") + point_of(curve) + colour + ", ";
       for (int times = deviations ? 2 : 1; times > 0; --times) {
@@ -212,7 +211,7 @@ std::string ladder_picture(const Chart& chart, const std::string& terminal, cons
   std::string tics;
   for (const LadderPoint& p : chart.ladder)
     if (p.vertices == 0 && std::find(distances.begin(), distances.end(), p.distance) == distances.end()) {
-      tics += (tics.empty() ? "" : ", ") + quoted(p.distance < 0 ? number_text(p.distance) : number_text(p.distance)) + " " + std::to_string(distances.size());
+      tics += (tics.empty() ? "" : ", ") + quoted_for_gnuplot(number_text(p.distance)) + " " + std::to_string(distances.size());
       distances.push_back(p.distance);
     }
   const auto rung = [&](const LadderPoint& p) { return static_cast<double>(std::find(distances.begin(), distances.end(), p.distance) - distances.begin()); };
@@ -252,7 +251,7 @@ std::string ladder_picture(const Chart& chart, const std::string& terminal, cons
 /// Bars: what was modelled, and what it costs.
 std::string price_picture(const Chart& chart, const std::string& terminal, const std::string& file) {
   const double width = pictures[3].width, height = pictures[3].height;
-  std::string out = "set encoding utf8\nset micro\nset terminal " + terminal + "\nset output " + quoted(file) + "\nunset key\nset border 1 lc rgb '#8a93a0'\nset tics nomirror scale 0.5 textcolor rgb '#30363f' font ',11'\n";
+  std::string out = "set encoding utf8\nset micro\nset terminal " + terminal + "\nset output " + quoted_for_gnuplot(file) + "\nunset key\nset border 1 lc rgb '#8a93a0'\nset tics nomirror scale 0.5 textcolor rgb '#30363f' font ',11'\n";
   out += "set label 1 'The price of modelling too much' at screen " + number_text(24 / width) + "," + number_text(1 - 24 / height) + " font ',15' textcolor rgb '#14171d'\n";
   out += "set label 2 'The same pairs, modelled as they need and as they do not: time a query, supports asked for, and the worst error against what was meant.' at screen " + number_text(24 / width) + "," + number_text(1 - 50 / height) + " font ',10' textcolor rgb '#5a6472'\n";
   out += "set lmargin at screen 0.24\nset rmargin at screen 0.80\nset tmargin at screen " + number_text(1 - 76 / height) + "\nset bmargin at screen " + number_text(60 / height) + "\nset format x '%g ns'\nset grid xtics lc rgb '#e3e7ec' lt 1\nset xrange [0:*]\nset xtics add ('0' 0)\nset style fill solid noborder\n";
@@ -260,9 +259,9 @@ std::string price_picture(const Chart& chart, const std::string& terminal, const
   const auto rows = static_cast<int>(chart.price.size());
   for (int i = 0; i < rows; ++i) {
     const PricePoint& p = chart.price[static_cast<std::size_t>(i)];
-    tics += (i > 0 ? ", " : "") + quoted(p.what) + " " + std::to_string(-i);
+    tics += (i > 0 ? ", " : "") + quoted_for_gnuplot(p.what) + " " + std::to_string(-i);
     const std::string error = p.error_known ? (p.worst_error > 0 ? "error " + number_text(p.worst_error, "%.2g") : "no error") : "";
-    out += "set label " + std::to_string(i + 10) + " " + quoted("  " + number_text(p.nanoseconds, "%.0f") + " ns, " + number_text(p.supports, "%.1f") + " supports" + (error.empty() ? "" : ", " + error)) + " at " + number_text(p.nanoseconds) + "," +
+    out += "set label " + std::to_string(i + 10) + " " + quoted_for_gnuplot("  " + number_text(p.nanoseconds, "%.0f") + " ns, " + number_text(p.supports, "%.1f") + " supports" + (error.empty() ? "" : ", " + error)) + " at " + number_text(p.nanoseconds) + "," +
            std::to_string(-i) + " font ',10' textcolor rgb '#30363f'\n";
     const bool spheres = p.what.find("hulls") != std::string::npos || p.what.starts_with("spheres"), flat = p.what.find("2D") != std::string::npos || p.what.find("slabs") != std::string::npos;
     data += "0 " + std::to_string(-i) + " 0 " + number_text(p.nanoseconds) + " " + number_text(-i - 0.33) + " " + number_text(-i + 0.33) + (spheres ? " 0x4C9BE8" : flat ? " 0xE8A33D" : " 0x2FBF8F") + "\n";
