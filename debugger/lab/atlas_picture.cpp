@@ -25,14 +25,14 @@ class HeatMap {
     for (const AtlasFamily& family : atlas.families) widest_ = std::max(widest_, row_title(family).size());
   }
 
-  int width() const { return static_cast<int>(std::max(left() + cell_width * static_cast<double>(columns_) + margin, legend_width())); }
+  int width() const { return static_cast<int>(std::max(right(), margin + legend_width()) + margin); }
   int height() const { return static_cast<int>(bottom() + foot); }
 
   std::string commands(const std::string& terminal, const std::string& file) const {
     std::string out = "set encoding utf8\nset terminal " + terminal + "\nset output " + quoted_for_gnuplot(file) + "\nunset border\nunset key\nunset colorbox\nset tics scale 0 textcolor rgb '#30363f' font ',10'\n";
     out += "set label 1 'Stability where methods fail' at screen " + at(margin, 24) + title_look + "\n";
     out += "set label 2 'The worst verdict of a method over a family of pairs, and the largest error relative to the size.' at screen " + at(margin, 50) + note_look + "\n";
-    out += "set lmargin at screen " + across(left()) + "\nset rmargin at screen " + across(left() + cell_width * static_cast<double>(columns_)) + "\nset tmargin at screen " + up(head) + "\nset bmargin at screen " + up(bottom()) + "\n";
+    out += "set lmargin at screen " + across(left()) + "\nset rmargin at screen " + across(right()) + "\nset tmargin at screen " + up(head) + "\nset bmargin at screen " + up(bottom()) + "\n";
     out += "set xrange [-0.5:" + number_text(static_cast<double>(columns_) - 0.5) + "]\nset yrange [" + number_text(static_cast<double>(rows_) - 0.5) + ":-0.5]\n";
     return out + tics() + gaps() + legend() + cells();
   }
@@ -43,6 +43,7 @@ class HeatMap {
   static constexpr std::array<const char*, verdict_names.size()> colours{"#009E73", "#9BD7C3", "#F0E442", "#E69F00", "#CC79A7", "#D55E00", "#7A3B00", "#000000", "#F1F3F5"};
 
   double left() const { return 2 * margin + letter * static_cast<double>(widest_); }
+  double right() const { return left() + cell_width * static_cast<double>(columns_); }
   double bottom() const { return head + cell_height * static_cast<double>(rows_); }
   std::string across(double x) const { return number_text(x / width()); }
   std::string up(double y) const { return number_text(1 - y / height()); }
@@ -82,13 +83,13 @@ class HeatMap {
   }
   static double legend_room(std::size_t i) { return 50 + letter * (static_cast<double>(std::string(verdict_names[i]).size()) + (*verdict_marks[i] != 0 ? 3 : 0)); }
   double legend_width() const {
-    double x = left();
+    double x = 0;
     for (std::size_t i = 0; i < verdict_names.size(); ++i) x += legend_room(i);
     return x;
   }
   std::string legend() const {
     std::string out;
-    double x = left();
+    double x = std::min(left(), std::max(right() - legend_width(), margin));
     const double y = height() - 30;
     for (std::size_t i = 0; i < verdict_names.size(); ++i) {
       const std::string number = std::to_string(10 + i);
@@ -122,9 +123,10 @@ class HeatMap {
         if (const std::string words = label(cell); !words.empty()) text += place + words + (dark ? " 0xFFFFFF\n" : " 0x000000\n");
       }
     const std::string all = "set palette maxcolors " + std::to_string(colours.size()) + " defined (" + palette + ")\nset cbrange [-0.5:" + number_text(static_cast<double>(colours.size()) - 0.5) + "]\n";
+    const std::string boxes = "using 1:2:(0.5):(0.5):3 with boxxyerror fs solid noborder lc palette";  // an image has no size where there is but a row or a column
     if (colour.empty()) return all + "plot NaN\n";
-    if (text.empty()) return all + "plot '-' using 1:2:3 with image\n" + colour + "e\n";
-    return all + "plot '-' using 1:2:3 with image, '-' using 1:2:3:4 with labels font ',8' textcolor rgb variable\n" + colour + "e\n" + text + "e\n";
+    if (text.empty()) return all + "plot '-' " + boxes + "\n" + colour + "e\n";
+    return all + "plot '-' " + boxes + ", '-' using 1:2:3:4 with labels font ',8' textcolor rgb variable\n" + colour + "e\n" + text + "e\n";
   }
 
   const Atlas& atlas_;
