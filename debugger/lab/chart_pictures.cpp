@@ -86,6 +86,7 @@ class Page {
     double x = left_margin, y = height_ - foot + 76;
     out_ += "set lmargin at screen 0\nset rmargin at screen 1\nset tmargin at screen 1\nset bmargin at screen 0\nunset border\nunset tics\nunset grid\nunset xlabel\nunset ylabel\nunset label 3\nunset logscale\n";
     int mark = 10;
+    std::stable_partition(told_.begin(), told_.end(), [](const Curve& curve) { return curve.drawn != Curve::Drawn::rings; });  // what is said of all of them comes last
     for (const Curve& curve : told_) {
       const double room = 58 + 6.9 * static_cast<double>(curve.name.size());
       if (x + room > width_ - 10) x = left_margin, y += 22;
