@@ -130,6 +130,32 @@ TEST_F(Lines, AFormulaIsNotBroken) {
   ImGui::EndFrame();
 }
 
+/// Also where its pose's position is somewhere else: points that are far from it would swing out of the picture.
+TEST_F(Lines, ABodyIsTurnedAboutItsMiddle) {
+  const ViewRectangle view{282, 54 + 48 * 0.6, 325, 474 - 48 * 0.6};
+  for (const char* name : {"2d-dyn4j", "hull-tetrahedra", "box-box-deep"}) {
+    app.open_gallery(name);
+    host.frame(), host.frame();
+    const Pose before = session.scene().scene.bodies[0].pose;
+    const auto middles = [&] { return std::vector<ViewPoint>{middle(session.meshes().bodies[0]), middle(session.meshes().bodies[1])}; };
+    const auto centre = [&] {
+      ViewPoint sum = ViewPoint::Zero();
+      for (const ViewPoint& p : session.meshes().bodies[0].points) sum += p;
+      return ViewPoint(sum / static_cast<double>(session.meshes().bodies[0].points.size()));
+    };
+    const ViewPoint pivot = middle(session.meshes().bodies[0]), from = centre();
+    const Projection projection(app.world_camera, view);
+    const Projected disc = projection(place_handles(middles(), projection, app.settings.scale)[0].disc);
+    host.drag(static_cast<float>(disc.x), static_cast<float>(disc.y), static_cast<float>(disc.x) - 30, static_cast<float>(disc.y) - 20);
+    ASSERT_TRUE(session.can_undo()) << name;
+    EXPECT_GT((session.scene().scene.bodies[0].pose.matrix - before.matrix).norm(), 0.05) << name;
+    EXPECT_NEAR((centre() - pivot).norm(), (from - pivot).norm(), 1e-9) << name << ": the middle it had stays";
+    if (std::string(name) == "box-box-deep") {
+      EXPECT_EQ(session.scene().scene.bodies[0].pose.position, before.position);
+    }
+  }
+}
+
 SceneFile mpr_scene(const char* other) {
   return scene_from_json(nlohmann::ordered_json::parse(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "penetration", "method": {"name": "mpr"}, "bodies": [
       {"shape": {"type": "box", "half_extents": [1, 1, 1]}, "pose": {"position": [0, 0, 0]}}, )" + std::string(other) + "]}"), {});
