@@ -108,7 +108,8 @@ void App::panels(const Area& window) {
   if (lecture) {
     const float bottom = std::max(theme.px(190), window.height * 0.27f);
     theme.marks = 1.4f * lecture_scale(window.height);
-    view_panels(*this, {gap, top + gap, window.width - 2 * gap, height - bottom - gap}, true);
+    views_ = {gap, top + gap, window.width - 2 * gap, height - bottom - gap};
+    view_panels(*this, views_, true);
     theme.marks = 1;
     lecture_panel({gap, top + gap + height - bottom, window.width - 2 * gap, bottom});
     banner({gap, top + gap, window.width - 2 * gap, theme.px(40)});
@@ -119,11 +120,12 @@ void App::panels(const Area& window) {
   Preferences& p = preferences;
   const float rail = theme.px(44);
   const float left = narrow ? rail : std::min(theme.px(p.left), window.width * 0.35f), right = std::min(theme.px(p.right), window.width * (narrow ? 0.29f : 0.4f));
-  const float tall = std::clamp(window.height / theme.px(900), 1.f, 1.6f);  // a tall window has more steps in its list
+  const float lines = window.height / theme.px(900), tall = lines > 1 ? std::min(lines, 1.6f) : std::clamp(window.height / theme.px(650), 0.8f, 1.f);  // a tall window has more steps in its list, a low one fewer
   const float bottom = std::min(theme.px(p.bottom) * tall, window.height * 0.6f);
   const Area middle{left + 2 * gap, top + gap, window.width - left - right - 4 * gap, height - bottom - gap};
   if (narrow) icon_rail({gap, top + gap, left, height});
   else left_panel({gap, top + gap, left, height}), rail_opens_.reset();
+  views_ = middle;
   view_panels(*this, middle, true);
   timeline_panel(*this, {middle.x, middle.y + middle.height + gap, middle.width, bottom});
   step_panel(*this, {window.width - right - gap, top + gap, right, height});
@@ -285,7 +287,8 @@ void App::title_and_chips(const Area& area) {
   const bool open = unanswered(session.recording().result), wrong = !open && std::any_of(findings.begin(), findings.end(), about_the_answer);
   const bool neutral = !wrong && (simulated || open);
   const std::string found = wrong || errors == 0 ? "" : errors == 1 ? "  \xC2\xB7  1 finding" : "  \xC2\xB7  " + std::to_string(errors) + " findings";
-  const std::string result = (wrong ? "wrong: " : "") + result_text(session.recording()) + found, name = session.title() + (session.can_undo() ? " (edited)" : "");
+  const std::string whole_result = (wrong ? "wrong: " : "") + result_text(session.recording()) + found, name = session.title() + (session.can_undo() ? " (edited)" : "");
+  std::string result = whole_result;
   const Colour tone = neutral ? theme.palette.text_soft : wrong ? theme.palette.newest : session.recording().result.intersecting ? theme.palette.chosen : theme.palette.support;
   const std::string whole = method_text(session.recording()), short_name = foreign(session.recording()) ? "yours" : std::string(word_of(session.recording().settings.name));
   std::string method = whole + "  \xC2\xB7  " + std::string(word_of(session.scene().scene.query));
@@ -296,6 +299,10 @@ void App::title_and_chips(const Area& area) {
   if (too_wide()) method = whole;  // a narrow window: the query is left out, then all but the name
   if (too_wide()) method = short_name;
   const bool alone = too_wide();  // not even that
+  if (const float room = area.width - theme.px(16) - here; alone && width(result) > room) {
+    if (room < theme.px(80)) return;
+    result = shortened(theme.small, result, room - theme.px(22));
+  }
   const float chips = alone ? width(result) : both();
   if (const float room = area.width - chips - theme.px(24) - std::max(middle, here); room > std::min(title, theme.px(80))) {
     ImGui::SameLine(std::max(middle, here));
@@ -312,7 +319,7 @@ void App::title_and_chips(const Area& area) {
   if (!ImGui::IsItemHovered()) return;
   const Result& r = session.recording().result;
   const std::string bounds = r.lower_bound && r.upper_bound ? "\nbounds: " + all_digits(*r.lower_bound) + " to " + all_digits(*r.upper_bound) : "";
-  ImGui::SetTooltip("%s\nstatus: %s%s", result.c_str(), r.status.c_str(), bounds.c_str());
+  ImGui::SetTooltip("%s\nstatus: %s%s", whole_result.c_str(), r.status.c_str(), bounds.c_str());
 }
 
 namespace {

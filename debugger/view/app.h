@@ -107,11 +107,13 @@ class App {
   void find_keys();
   void find_while_typing();
   void find_next(bool backwards);
+  void forget_found();
   void go_to_dialog();
 
   Gallery gallery_;
   Thumbnails thumbnails_;
   int fitted_ = 0;
+  Area views_;  ///< where the views were drawn
   std::optional<LeftTab> rail_opens_;  ///< with the next frame
   bool wide_ = true, rail_open_ = false;  ///< whether the left panel has room; where it has none, whether what the rail opens is open
   Asking asking_ = Asking::nothing, asked_ = Asking::nothing;
@@ -120,6 +122,7 @@ class App {
     char text[256] = {};
     std::size_t from = 0;              ///< where the text that is being typed is looked for from
     std::optional<std::size_t> found;  ///< by the last search
+    int opened = 0;                    ///< what it was found in
     std::string error;
   } find_;
   char file_buffer_[1024] = {};
@@ -165,8 +168,12 @@ bool begin_list(const char* name);
 void section(const Theme& theme, const char* title);
 /// A line of text, or as much of it as fits into `room`, and three dots.
 std::string shortened(const ImFont* font, const std::string& text, float room);
-/// Broken between words only: never within a number.
+/// Lines no wider than `room`, in the current font, broken between words only (ImGui breaks after any point, that of a number, too), and of "w = a - b" not
+/// within it where it has room; a word that is too wide for a line, an address, is broken anywhere.
+std::string broken_into_lines(const std::string& text, float room);
+/// So broken.
 void wrapped(const std::string& text, Colour colour);
+void wrapped(const std::string& text, Colour colour, float room);
 /// Of sentences, broken into lines.
 void tooltip(const Theme& theme, const std::string& text);
 /// Of the last item of a row of buttons, where it is pointed at: below the row, in the window's lower half above it, so that the others stay in sight.

@@ -14,12 +14,16 @@ Explanation ExplainMethods::operator()(const recorded::MprBegan& e) const {
 }
 
 Explanation ExplainMethods::operator()(const recorded::PortalFound& e) const {
-  return {"A portal", "The ray passes between these vertices. " + std::string(e.distance < 0 ? "The origin is still beyond the portal, by " + short_number(-e.distance) + ": is there anything of " + difference() + " farther out?"
+  const char* where = e.vertices.size() == 1 ? "The ray goes to this vertex. " : "The ray passes between these vertices. ";
+  return {"A portal", where + std::string(e.distance < 0 ? "The origin is still beyond the portal, by " + short_number(-e.distance) + ": is there anything of " + difference() + " farther out?"
                                                                                             : "The origin is on the inner side, by " + short_number(e.distance) + ": the bodies overlap." + (ends_in(MprStatus::overlapping) ? "" : " The portal moves out to the boundary for the depth."))};
 }
 
 Explanation ExplainMethods::operator()(const recorded::MprEnded& e) const {
-  const std::string title = "MPR ends: " + (e.status == MprStatus::converged ? "the portal is on the boundary" : in_words(word_of(e.status)));
+  const std::string title = "MPR ends: " + (e.status == MprStatus::converged ? frame.portal.empty() ? "the ray leads to a vertex" : "the portal is on the boundary" : in_words(word_of(e.status)));
+  if (frame.portal.empty() && e.status == MprStatus::overlapping) return {title, "The last vertex lies on the ray itself, and not short of the origin: the bodies overlap, and no more was asked."};
+  if (frame.portal.empty() && e.status == MprStatus::converged)
+    return {title, "The last vertex lies on the ray itself, so no portal is needed: " + difference() + " ends there. Moving body " + b() + " by " + short_number(e.depth) + " along " + short_vector(e.normal) + " separates the bodies; a shorter way may exist, for MPR looks in one direction only."};
   switch (e.status) {
     case MprStatus::separated: return {title, "The plane of the last support has all of " + difference() + " on its far side: the bodies are apart, by at least " + short_number(-e.depth) + ". How far, MPR does not know."};
     case MprStatus::overlapping: return {title, "The origin lies on the inner side of a portal: the bodies overlap, and no more was asked."};

@@ -11,7 +11,11 @@ namespace gjkdbg {
 
 void App::open_find_bar() {
   find_.open = find_.wants_focus = true;
-  find_.from = session.step();
+  forget_found();
+}
+
+void App::forget_found() {
+  find_.from = session.step(), find_.opened = session.opened();
   find_.error.clear(), find_.found.reset();
 }
 
@@ -60,14 +64,24 @@ bool small_cross(const Theme& theme) {
   return pressed;
 }
 
+/// The longest of these that fits.
+const char* first_that_fits(std::initializer_list<const char*> texts, float room) {
+  const auto fits = [&](const char* text) { return ImGui::CalcTextSize(text).x <= room; };
+  const auto found = std::find_if(texts.begin(), texts.end(), fits);
+  return found == texts.end() ? *(texts.end() - 1) : *found;
+}
+
 }  // namespace
 
+/// Above the views, so that what the step is about stays in sight; across the window where they are too narrow for it, or not shown.
 void App::find_bar() {
   if (!session.is_open()) find_.open = false;
   if (!find_.open) return;
+  if (find_.opened != session.opened()) forget_found();
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  const float width = std::min(theme.px(600), window.x - theme.px(20));
-  ImGui::SetNextWindowPos({window.x / 2, theme.px(50)}, ImGuiCond_Always, {0.5f, 0});
+  const bool above_views = !show_lab && views_.width > theme.px(330);
+  const float room = above_views ? views_.width - theme.px(12) : window.x - theme.px(20), width = std::min(theme.px(700), room);
+  ImGui::SetNextWindowPos({above_views ? views_.x + views_.width / 2 : window.x / 2, theme.px(50)}, ImGuiCond_Always, {0.5f, 0});
   ImGui::SetNextWindowSize({width, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {theme.px(8), theme.px(7)});
@@ -78,9 +92,11 @@ void App::find_bar() {
   const float gap = theme.px(6), pad = 2 * ImGui::GetStyle().FramePadding.x;
   const float buttons = ImGui::CalcTextSize("Next").x + ImGui::CalcTextSize("Previous").x + 2 * pad + ImGui::GetFrameHeight() + 3 * gap;
   if (std::exchange(find_.wants_focus, false)) ImGui::SetKeyboardFocusHere();
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - buttons);
+  const float field = ImGui::GetContentRegionAvail().x - buttons;
+  const char* hint = first_that_fits({"Find a step: a part of its row or sentence, or upper_bound < 1e-3", "A part of a row or sentence, or upper_bound < 1e-3", "Find: text, or upper_bound < 1e-3", "Find a step"}, field - pad);
+  ImGui::SetNextItemWidth(field);
   const std::string typed = find_.text;
-  const bool entered = ImGui::InputTextWithHint("##find", "Find a step: a part of its row or sentence, or upper_bound < 1e-3", find_.text, sizeof find_.text, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  const bool entered = ImGui::InputTextWithHint("##find", hint, find_.text, sizeof find_.text, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   const bool left = ImGui::IsItemDeactivated() && key_pressed(Key::escape);
   if (left) typed.copy(find_.text, sizeof find_.text - 1), find_.text[typed.size()] = 0;  // Escape takes back what is typed; F3 goes on with it
   else if (ImGui::IsItemEdited()) find_while_typing();
@@ -100,8 +116,8 @@ void App::find_bar() {
   if (!find_.error.empty()) {
     ImGui::TextColored(vec(theme.palette.newest), "%s", shortened(theme.small, find_.error, ImGui::GetContentRegionAvail().x).c_str());
     if (ImGui::IsItemHovered()) tooltip(theme, find_.error);
-  } else if (find_.found) {
-    const std::string told = "step " + std::to_string(*find_.found) + ": " + std::string(short_kind(session.recording().events[std::min(*find_.found, session.count() - 1)])) + "  " + summary(session.recording(), std::min(*find_.found, session.count() - 1), settings.newest_first);
+  } else if (find_.found == session.step()) {  // not where one has stepped on from it
+    const std::string told = "step " + std::to_string(*find_.found) + ": " + std::string(short_kind(session.recording().events[*find_.found])) + "  " + summary(session.recording(), *find_.found, settings.newest_first);
     ImGui::TextColored(vec(theme.palette.text_soft), "%s", shortened(theme.small, told, ImGui::GetContentRegionAvail().x).c_str());
   }
   ImGui::PopFont();

@@ -103,27 +103,55 @@ void App::view_keys() {
   if (key_pressed(Key::pad_3)) look(0, right_angle);
 }
 
+namespace {
+
+struct KeyGroup {
+  const char* title;
+  std::initializer_list<std::pair<const char*, const char*>> rows;
+};
+
+/// Keys in their own colour, what they do beside them.
+void key_group(const Theme& theme, const KeyGroup& group, float left, float meaning) {
+  ImGui::SetCursorPosX(left);
+  ImGui::PushFont(theme.small);
+  ImGui::TextColored(vec(theme.palette.text_faint), "%s", group.title);
+  ImGui::PopFont();
+  for (const auto& [key, what] : group.rows) {
+    ImGui::SetCursorPosX(left);
+    ImGui::TextColored(vec(theme.palette.text), "%s", key);
+    ImGui::SameLine(meaning);
+    ImGui::TextColored(vec(theme.palette.text_soft), "%s", what);
+  }
+  ImGui::Dummy({0, theme.px(3)});
+}
+
+}  // namespace
+
+/// Two columns; one below the other in a window that is too narrow for them.
 void App::key_sheet() {
   if (!show_keys) return;
-  static const std::pair<const char*, const char*> rows[] = {
-      {"Right  Left   or   .  ,", "on, back an event"}, {"Shift with them", "an iteration"}, {"Ctrl with them", "a phase"}, {"Home  End", "first, last step"},
-      {"Space", "play, pause"}, {"[  ]", "loop from here, to here"}, {"B", "breakpoint here"}, {"M, 1 to 9", "bookmark, go to it"}, {"Ctrl-F, F3, Shift-F3", "find, next, the one before"},
-      {"Ctrl-G", "go to a step"}, {"F, double click", "fit the views"}, {"Shift-F", "the views as at first"}, {"1 2 3 on the pad", "front, right, top"}, {"V", "side by side, stacked, one view"}, {"L", "link the cameras"},
-      {"G", "gallery or scene"}, {"Page Down  Page Up", "next scene, the one before"}, {"T", "dark or light"}, {"E", "explain in big letters"}, {"X", "charts and atlas"}, {"Ctrl-O  Ctrl-S", "open, save"}, {"Ctrl-C, Ctrl-Shift-C", "copy the scene: JSON, C++"},
-      {"Ctrl-Z  Ctrl-Y", "undo, redo"}, {"Ctrl-Q", "quit"}, {"drag, right drag, wheel", "orbit, pan, zoom"}, {"click a vertex", "select it in both views"}, {"click a number", "the step it comes from"},
-      {"drag a ring A or B", "move the body"}, {"drag its small disc", "turn the body"}};
+  static const KeyGroup left[] = {
+      {"STEPS", {{"Right  Left   or   .  ,", "on, back an event"}, {"Shift with them", "an iteration"}, {"Ctrl with them", "a phase"}, {"Home  End", "first, last step"}, {"Space", "play, pause"}, {"[  ]", "loop from here, to here"},
+                 {"B", "breakpoint here"}, {"M, 1 to 9", "bookmark, go to it"}, {"Ctrl-F, F3, Shift-F3", "find, next, the one before"}, {"Ctrl-G", "go to a step"}}},
+      {"MOUSE", {{"drag, right drag, wheel", "orbit, pan, zoom"}, {"click a vertex", "select it in both views"}, {"click a number", "the step it comes from"}, {"drag a ring A or B", "move the body"}, {"drag its small disc", "turn the body"}}}};
+  static const KeyGroup right[] = {
+      {"SCENES AND FILES", {{"G", "gallery or scene"}, {"Page Down  Page Up", "next scene, the one before"}, {"Ctrl-O  Ctrl-S", "open, save"}, {"Ctrl-C, Ctrl-Shift-C", "copy the scene: JSON, C++"}, {"Ctrl-Z  Ctrl-Y", "undo, redo"}, {"Ctrl-Q", "quit"}}},
+      {"VIEWS", {{"F, double click", "fit the views"}, {"Shift-F", "the views as at first"}, {"1 2 3 on the pad", "front, right, top"}, {"V", "side by side, stacked, one"}, {"L", "link the cameras"}, {"T", "dark or light"}, {"E", "explain in big letters"}, {"X", "charts and atlas"},
+                 {"?", "this sheet"}}}};
   const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const bool two = size.x > theme.px(760);
+  const float key = theme.px(166), column = theme.px(372), edge = ImGui::GetStyle().WindowPadding.x;
   ImGui::SetNextWindowPos({size.x / 2, size.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, vec(theme.palette.panel));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, theme.px(4)});
   ImGui::Begin("Keys and mouse", &show_keys, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
-  for (const auto& [key, meaning] : rows) {
-    ImGui::TextColored(vec(theme.palette.text), "%s", key);
-    ImGui::SameLine(theme.px(220));
-    ImGui::TextColored(vec(theme.palette.text_soft), "%s", meaning);
-  }
+  const float top = ImGui::GetCursorPosY();
+  for (const KeyGroup& group : left) key_group(theme, group, edge, edge + key);
+  if (two) ImGui::SetCursorPosY(top);
+  for (const KeyGroup& group : right) key_group(theme, group, two ? edge + column : edge, two ? edge + column + key : edge + key);
   ImGui::End();
-  ImGui::PopStyleVar();
+  ImGui::PopStyleVar(2);
   ImGui::PopStyleColor();
 }
 

@@ -55,9 +55,7 @@ void atlas_area(App& app, ImVec2 at, ImVec2 size) {
     const float width = small_width(theme, name) + theme.px(38);
     if (pen.x + width > at.x + size.x) pen = {at.x, pen.y + theme.px(20)};
     const ImVec2 low{pen.x, pen.y + theme.px(1)}, high{pen.x + theme.px(18), pen.y + theme.px(17)};
-    list->AddRectFilled(low, high, packed(verdict_colour(v, p)), theme.px(3));
-    const std::string mark = atlas_verdict_marks[static_cast<std::size_t>(v)];
-    small_text(theme, {(low.x + high.x - small_width(theme, mark)) / 2, pen.y + theme.px(1)}, text_on(v), mark);
+    verdict_mark(theme, v, low, high);
     small_text(theme, {pen.x + theme.px(23), pen.y + theme.px(2)}, p.text_soft, name);
     if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(low, {pen.x + width - theme.px(10), high.y})) ImGui::SetTooltip("%s", atlas_verdict_meanings[static_cast<std::size_t>(v)]);
     pen.x += width;
@@ -96,6 +94,12 @@ void atlas_area(App& app, ImVec2 at, ImVec2 size) {
 
 }  // namespace
 
+void verdict_mark(const Theme& theme, int verdict, ImVec2 low, ImVec2 high) {
+  ImGui::GetWindowDrawList()->AddRectFilled(low, high, packed(verdict_colour(verdict, theme.palette)), theme.px(3));
+  const std::string mark = atlas_verdict_marks[static_cast<std::size_t>(verdict)];
+  small_text(theme, {(low.x + high.x - small_width(theme, mark)) / 2, (low.y + high.y - theme.small->FontSize) / 2}, text_on(verdict), mark);
+}
+
 void open_measured(App& app, SceneFile scene, const std::string& title) {
   try {
     app.session.open_for_a_look(std::move(scene), title);
@@ -126,6 +130,20 @@ void way_back(App& app) {
   if (taken) app.session.take_up_again(), app.settings.selected.reset();
 }
 
+namespace {
+
+/// Where there is nothing yet it is what to begin with.
+bool measure_button(const Theme& theme, bool there) {
+  if (there) return ImGui::Button("Measure again");
+  ImGui::PushStyleColor(ImGuiCol_Button, vec(theme.palette.accent));
+  ImGui::PushStyleColor(ImGuiCol_Text, vec(rgb(0xffffff)));
+  const bool pressed = ImGui::Button("Measure now");
+  ImGui::PopStyleColor(2);
+  return pressed;
+}
+
+}  // namespace
+
 void lab_panel(App& app, const Area& area) {
   const Theme& theme = app.theme;
   if (begin_area("lab", area, true)) {
@@ -135,7 +153,7 @@ void lab_panel(App& app, const Area& area) {
     }
     const bool chart = app.lab_tab == App::LabTab::chart, there = chart ? app.measured.chart.has_value() : app.measured.atlas.has_value();
     if (app.measuring) ImGui::TextColored(vec(theme.palette.text_soft), "measuring, some seconds ...");
-    else if (ImGui::Button(there ? "Measure again" : "Measure now")) app.measure_requested = chart ? "chart" : "atlas";
+    else if (measure_button(theme, there)) app.measure_requested = chart ? "chart" : "atlas";
     ImGui::SameLine();
     const std::string* before = app.session.waiting_title();  // what was open before those that dots have opened
     const std::string back = "Back to " + (before ? shortened(theme.text, *before, theme.px(220)) : "the scene");
@@ -150,13 +168,12 @@ void lab_panel(App& app, const Area& area) {
       ImGui::NewLine();
     }
     ImGui::Dummy({0, theme.px(2)});
-    wrapped(chart ? told_of(app.chart_view)
+    if (there) wrapped(chart ? told_of(app.chart_view)
                   : "The worst verdict of every family of hard pairs, a row a method, with the largest error as a share of the size, where it is not 0. Point at a family for what it is, at a verdict for what it means, at a cell for the reason.",
-            theme.palette.text_faint);
+            theme.palette.text_faint);  // it is explained where there is nothing yet
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const ImVec2 size{ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x, area.y + area.height - at.y - theme.px(14)};
-    if (!there)
-      wrapped("Nothing measured yet. \"Measure now\" runs gjkdbg " + std::string(chart ? "chart" : "atlas") + " --quick; Open or drop " + (chart ? "a chart" : "an atlas") + ".json of a full run to see that one.", theme.palette.text_soft);
+    if (!there) unmeasured(app, chart, at, size);
     else if (chart) chart_area(app, at, size);
     else atlas_area(app, at, size);
   }

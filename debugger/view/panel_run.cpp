@@ -105,9 +105,7 @@ void stop_section(App& app) {
   ImGui::PopFont();
   if (ImGui::IsItemHovered() && app.stop_when_error.empty()) ImGui::SetTooltip("kind == polytope_grown    status == stalled    region.size == 3    any warning    … and …    … or …");
   if (!app.stop_when_error.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.newest));
-    ImGui::TextWrapped("%s", app.stop_when_error.c_str());
-    ImGui::PopStyleColor();
+    wrapped(app.stop_when_error, theme.palette.newest);
     if (edited) ImGui::SetScrollHereY(1);  // the field may be the last that has room
   }
   breakpoint_rows(app);

@@ -50,7 +50,7 @@ void heading(App& app) {
   ImGui::PushFont(theme.small);
   const std::string time = session.frame().time ? "  \xC2\xB7  time " + short_number(*session.frame().time) : "";
   ImGui::TextColored(vec(theme.palette.text_faint), "%s", shortened(theme.small, place_text(session) + time, ImGui::GetContentRegionAvail().x).c_str());
-  if (const std::string triangle = triangle_name(session); !triangle.empty()) ImGui::TextColored(vec(theme.palette.text_faint), "%s, a convex set of its own", triangle.c_str());
+  if (const std::string triangle = triangle_name(session); !triangle.empty()) wrapped(triangle + ", a convex set of its own", theme.palette.text_faint);
   ImGui::PopFont();
   ImGui::PushFont(theme.title);
   ImGui::TextWrapped("%s", e.title.c_str());
@@ -189,7 +189,7 @@ void algorithm(App& app) {
   float widest = 0;
   for (const std::string& line : code.lines) widest = std::max(widest, ImGui::CalcTextSize(line.c_str()).x);
   const float room = ImGui::GetContentRegionAvail().x - theme.px(12);
-  if (widest > room) ImGui::SetWindowFontScale(std::max(0.7f, room / widest));
+  if (widest > room) ImGui::SetWindowFontScale(std::max(0.66f, room / widest));
   ImDrawList* draw = ImGui::GetWindowDrawList();
   for (std::size_t i = 0; i < code.lines.size(); ++i) {
     const ImVec2 at = ImGui::GetCursorScreenPos();

@@ -58,7 +58,16 @@ std::string label_under(const std::vector<FlatItem>& items, ImVec2 mouse, const 
 struct Held {
   int body = -1;
   bool turning = false;
+  AnyVector pivot;  ///< of a turn: the body's middle, in its own frame
 };
+
+/// Where the pose's position is the middle, it is that to the last bit: a turn then leaves it as it is.
+AnyVector pivot_of(const DisplayMesh& mesh, const Pose& pose) {
+  const ViewPoint m = middle(mesh);
+  const AnyVector away = m.head(pose.position.size()) - pose.position;
+  if (away.norm() <= 1e-6 * (mesh.points[0] - m).norm()) return AnyVector::Zero(away.size());
+  return pose.matrix.transpose() * away;
+}
 
 std::vector<BodyHandle> handles_of(const App& app, const Projection& projection) {
   const SceneMeshes& meshes = app.session.meshes();
@@ -76,8 +85,11 @@ void body_name(const App& app, ImVec2 middle, const std::string& letter, Colour 
 
 float distance(ImVec2 p, ImVec2 q) { return std::hypot(p.x - q.x, p.y - q.y); }
 
-/// Turns a body about the view's direction, by the angle that the pointer has gone round the body's middle.
-void turn(Body& body, const ViewPoint& axis, double angle, int dimension) {
+AnyVector place_of(const AnyVector& pivot, const Pose& pose) { return pose.position + pose.matrix * pivot; }
+
+/// Turns a body about the view's direction, by the angle that the pointer has gone round the pivot, which stays where it is.
+void turn(Body& body, const AnyVector& pivot, const ViewPoint& axis, double angle, int dimension) {
+  const AnyVector stays = place_of(pivot, body.pose);
   if (dimension == 2) {
     body.pose.rotation = PlaneAngle{to_plane_angle(body.pose.matrix).angle + angle};
   } else {
@@ -85,6 +97,7 @@ void turn(Body& body, const ViewPoint& axis, double angle, int dimension) {
     body.pose.rotation = to_quaternion(turned);
   }
   body.pose.matrix = resolve(body.pose.rotation, dimension).matrix;
+  body.pose.position = stays - body.pose.matrix * pivot;
 }
 
 /// A ring in each body's middle, or beside another's that is there: dragging it moves the body in the picture's plane; the disc beside it turns it.
@@ -105,7 +118,10 @@ void body_handles(App& app, const Projection& projection, ImDrawList* draw, Held
     body_name(app, ring, letter, colour);
     if (near && held.body < 0) ImGui::SetTooltip("drag: move %s", letter.c_str());
     if (near_disc && held.body < 0) ImGui::SetTooltip("drag: turn %s", letter.c_str());
-    if ((near || near_disc) && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) held = {i, near_disc}, app.session.begin_edit();
+    if ((near || near_disc) && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
+      const auto k = static_cast<std::size_t>(i);
+      held = {i, near_disc, pivot_of(app.session.meshes().bodies[k], app.session.scene().scene.bodies[k].pose)}, app.session.begin_edit();
+    }
   }
   if (held.body < 0) return;
   const ImVec2 delta = ImGui::GetIO().MouseDelta;
@@ -117,9 +133,9 @@ void body_handles(App& app, const Projection& projection, ImDrawList* draw, Held
     next.expect.reset();
     Body& body = next.scene.bodies[static_cast<std::size_t>(held.body)];
     if (held.turning) {
-      const ImVec2 c = at(projection(handles[static_cast<std::size_t>(held.body)].ring));
+      const ImVec2 c = at(projection(to_view(place_of(held.pivot, body.pose))));
       const double from = std::atan2(c.y - (mouse.y - delta.y), (mouse.x - delta.x) - c.x), to = std::atan2(c.y - mouse.y, mouse.x - c.x);
-      turn(body, projection.towards(), std::remainder(to - from, 2 * M_PI), dimension);
+      turn(body, held.pivot, projection.towards(), std::remainder(to - from, 2 * M_PI), dimension);
     } else {
       body.pose.position += projection.move(delta.x, delta.y).head(dimension);
     }

@@ -1,6 +1,7 @@
 // A plot: a frame with two axes, even or logarithmic, and where its points stand.
 #pragma once
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,6 +45,10 @@ class Plot {
 
 /// What is shown of a measured chart, in this area.
 void chart_area(App& app, ImVec2 at, ImVec2 size);
+/// Where nothing has been measured: what a chart, or an atlas, will show, and how to get it.
+void unmeasured(App& app, bool chart, ImVec2 at, ImVec2 size);
+/// A verdict's square with its mark.
+void verdict_mark(const Theme& theme, int verdict, ImVec2 low, ImVec2 high);
 /// What it is, in a sentence.
 const char* told_of(App::ChartView view);
 /// Opens a scene in place of the measurements, at the first step that `check` finds wrong, else at the end.

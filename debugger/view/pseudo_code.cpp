@@ -51,7 +51,7 @@ struct PseudoCodeOf {
 
   // --- MPR, SAT, the closed form ----------------------------------------------------------------------------------
   PseudoCode mpr(int line) const {
-    return {"MPR", {"v0 = a point inside A - B", "find a portal the ray v0 O passes", "repeat", "  n = normal of the portal", "  if O on v0's side: overlap", "  w = support(n)", "  if w short of O: apart", "  if w not beyond: depth = n.w", "  portal = the part with w that the ray passes"}, line};
+    return {"MPR", {"v0 = a point inside A - B", "find a portal the ray v0 O passes", "repeat", "  n = normal of the portal", "  if O on v0's side: overlap", "  w = support(n)", "  if w short of O: apart", "  if w not beyond: depth = n.w", "  portal = part with w that the ray passes"}, line};
   }
   PseudoCode operator()(const recorded::MprBegan&) const { return mpr(0); }
   PseudoCode operator()(const recorded::PortalFound&) const { return mpr(3); }

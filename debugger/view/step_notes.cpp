@@ -80,9 +80,7 @@ void beside_note(App& app) {
   const Theme& theme = app.theme;
   section(theme, ("BESIDE IT: " + s.other_title()).c_str());
   const std::size_t k = s.other_step();
-  ImGui::PushStyleColor(ImGuiCol_Text, vec(theme.palette.text_soft));
-  ImGui::TextWrapped("%s: %s", short_kind(s.other().events[k]), summary(s.other(), k, app.settings.newest_first).c_str());
-  ImGui::PopStyleColor();
+  wrapped(short_kind(s.other().events[k]) + (": " + summary(s.other(), k, app.settings.newest_first)), theme.palette.text_soft);
   wrapped(parting_text(s), theme.palette.text_soft);
   if (const std::string ending = ending_text(s); !ending.empty()) wrapped(ending, theme.palette.text_soft);
   if (answers_agree(s.recording().result, s.other().result)) wrapped("the answers agree", theme.palette.support);

@@ -62,6 +62,7 @@ void apply_colours(Theme& theme, bool dark) {
   c[ImGuiCol_Text] = vec(p.text), c[ImGuiCol_TextDisabled] = vec(p.text_faint);
   c[ImGuiCol_WindowBg] = vec(p.background), c[ImGuiCol_ChildBg] = vec(p.panel), c[ImGuiCol_PopupBg] = vec(p.panel);
   c[ImGuiCol_Border] = vec(p.hover), c[ImGuiCol_FrameBg] = vec(p.field), c[ImGuiCol_FrameBgHovered] = vec(p.hover), c[ImGuiCol_FrameBgActive] = vec(p.hover);
+  c[ImGuiCol_TitleBg] = c[ImGuiCol_TitleBgActive] = vec(p.field);
   c[ImGuiCol_MenuBarBg] = vec(p.panel), c[ImGuiCol_ScrollbarBg] = vec(p.panel.with_alpha(0)), c[ImGuiCol_ScrollbarGrab] = vec(p.hover);
   c[ImGuiCol_ScrollbarGrabHovered] = vec(p.text_faint), c[ImGuiCol_ScrollbarGrabActive] = vec(p.text_faint);
   c[ImGuiCol_CheckMark] = vec(p.accent), c[ImGuiCol_SliderGrab] = vec(p.accent), c[ImGuiCol_SliderGrabActive] = vec(p.accent);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -39,17 +40,38 @@ std::string shortened(const ImFont* font, const std::string& text, float room) {
 
 namespace {
 
+float width_of(const std::string& text, std::size_t from, std::size_t end) { return ImGui::CalcTextSize(text.data() + from, text.data() + end).x; }
+
 /// A vector, "(1, 2, 3)," stays on one line where that has room for it.
-std::size_t end_of_word(const std::string& text, std::size_t from, float room) {
+std::size_t end_of_term(const std::string& text, std::size_t from, float room) {
   const std::size_t end = std::min(text.find_first_of(" \n", from), text.size());
   const bool numbers = from + 1 < text.size() && text[from] == '(' && std::string_view("-0123456789").find(text[from + 1]) != std::string_view::npos;
   const std::size_t close = numbers ? text.find(')', from) : std::string::npos;
   if (close == std::string::npos || close < end) return end;
   const std::size_t whole = std::min(text.find_first_of(" \n", close), text.size());
-  return ImGui::CalcTextSize(text.substr(from, whole - from).c_str()).x <= room ? whole : end;
+  return width_of(text, from, whole) <= room ? whole : end;
 }
 
-/// Lines no wider than `room`, broken between words only (ImGui breaks after any point, that of a number, too); a word wider than that, an address, anywhere.
+/// Of a sign that stands between two terms, blanks around it: where the second one begins; 0 where there is none.
+std::size_t after_sign(const std::string& text, std::size_t end) {
+  for (const std::string_view sign : {" = ", " - ", " . ", " \xE2\x88\x92 ", " + ", " < ", " > ", " <= ", " >= "})
+    if (std::string_view(text).substr(end).starts_with(sign) && text[end - 1] != ',' && text[end - 1] != '.') return end + sign.size();
+  return std::string_view(text).substr(end).starts_with(" -v") ? end + 1 : 0;
+}
+
+/// So do the two sides of a sign, "w = a - b" or "|v| = 1.5", and "along -v", as many of them as there is room for.
+std::size_t end_of_word(const std::string& text, std::size_t from, float room) {
+  std::size_t end = end_of_term(text, from, room);
+  while (const std::size_t second = end > from ? after_sign(text, end) : 0) {
+    const std::size_t longer = end_of_term(text, second, room);
+    if (width_of(text, from, longer) > room) break;
+    end = longer;
+  }
+  return end;
+}
+
+}  // namespace
+
 std::string broken_into_lines(const std::string& text, float room) {
   const auto width = [](const std::string& t) { return ImGui::CalcTextSize(t.c_str()).x; };
   const float space = width(" ");
@@ -72,18 +94,26 @@ std::string broken_into_lines(const std::string& text, float room) {
   return lines;
 }
 
-}  // namespace
-
-void wrapped(const std::string& text, Colour colour) { ImGui::TextColored(vec(colour), "%s", broken_into_lines(text, ImGui::GetContentRegionAvail().x).c_str()); }
+void wrapped(const std::string& text, Colour colour, float room) { ImGui::TextColored(vec(colour), "%s", broken_into_lines(text, room).c_str()); }
+void wrapped(const std::string& text, Colour colour) { wrapped(text, colour, ImGui::GetContentRegionAvail().x); }
 
 void number_row(const Theme& theme, const char* label, const std::string& value, Colour colour) {
   const float left = ImGui::GetCursorPosX(), label_end = left + ImGui::CalcTextSize(label).x + theme.px(6);
   ImGui::TextColored(vec(theme.palette.text_soft), "%s", label);
   ImGui::PushFont(theme.mono);
-  const float at = std::max(left, ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x);
-  if (at > label_end) ImGui::SameLine(at);
-  else ImGui::SetCursorPosX(at);  // no room beside the label: below it
-  ImGui::TextColored(vec(colour), "%s", value.c_str());
+  const float right = ImGui::GetWindowContentRegionMax().x, at = right - ImGui::CalcTextSize(value.c_str()).x;
+  if (at > label_end) {
+    ImGui::SameLine(at);
+    ImGui::TextColored(vec(colour), "%s", value.c_str());
+  } else {  // no room beside the label: below it; far-out places have so many digits that they take lines
+    ImGui::BeginGroup();
+    std::istringstream lines(broken_into_lines(value, right - left));
+    for (std::string line; std::getline(lines, line);) {
+      ImGui::SetCursorPosX(right - ImGui::CalcTextSize(line.c_str()).x);
+      ImGui::TextColored(vec(colour), "%s", line.c_str());
+    }
+    ImGui::EndGroup();
+  }
   ImGui::PopFont();
 }
 

@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
+
 #include "debugger/view/app.h"
 #include "recordings/comparison.h"
 #include "recordings/replay.h"
@@ -17,6 +19,16 @@ bool in_cone(const AnyVector& apex, const std::vector<AnyVector>& corners, const
   const Eigen::FullPivLU<Eigen::MatrixXd> solved(edges);
   if (!solved.isInvertible()) return true;  // nothing to be told by
   return solved.solve(Eigen::VectorXd(point - apex)).minCoeff() >= -1e-9;
+}
+
+/// Where a support lies on MPR's ray itself there is no portal: that support is the way out it believes in.
+std::optional<WrongStep> ending_on_the_ray(const Recording& run) {
+  if (run.events.size() < 2 || !std::holds_alternative<recorded::MprEnded>(run.events.back())) return std::nullopt;
+  const std::size_t last = run.events.size() - 2;
+  if (!std::holds_alternative<recorded::SupportQueried>(run.events[last])) return std::nullopt;
+  const auto is_portal = [](const Event& e) { return std::holds_alternative<recorded::PortalFound>(e); };
+  if (std::any_of(run.events.begin(), run.events.end(), is_portal)) return std::nullopt;
+  return WrongStep{last, "here MPR goes wrong: this vertex lies on its ray, so it looks no further; the shortest way out leads elsewhere"};
 }
 
 std::optional<WrongStep> leaving_portal(const Recording& run, const Recording& truth) {
@@ -35,7 +47,7 @@ std::optional<WrongStep> leaving_portal(const Recording& run, const Recording& t
     if (!frame.interior || corners.size() != found->vertices.size()) continue;
     if (!in_cone(*frame.interior, corners, nearest)) return WrongStep{i, "from here on MPR goes wrong: the shortest way out does not lead through this portal"};
   }
-  return std::nullopt;
+  return ending_on_the_ray(run);
 }
 
 }  // namespace
