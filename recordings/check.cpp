@@ -349,7 +349,9 @@ std::vector<Finding> judged(CheckContext context) {
 
 std::vector<Finding> check(const Recording& recording) {
   const std::optional<InOtherUnits> small = in_units_of_its_own(recording);
-  return small ? told_in_units(judged({small->recording, recording, small->unit}), *small) : judged(CheckContext(recording));
+  std::vector<Finding> findings = small ? told_in_units(judged({small->recording, recording, small->unit}), *small) : judged(CheckContext(recording));
+  tell_changed(recording, findings);
+  return findings;
 }
 
 std::string findings_to_json(const std::vector<Finding>& findings) {

@@ -42,7 +42,7 @@ TEST(CheckMotion, StepsAfterTheFirstResponse) {
   EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastAdvanced>(r, 43).distance = -5; }), "43 wrong-distance");
   EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastAdvanced>(r, 43).bound = -5; }), "43 inconsistent");
   EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastAdvanced>(r, 35).normal *= -1; }), "35 wrong-normal");
-  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastAdvanced>(r, 35).time += 0.01; }), "29 wrong-support") << "the run was about another time";
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastAdvanced>(r, 35).time += 0.01; }), "35 wrong-time") << "not the run before it, which is of the right time";
   EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::ImpulseApplied>(r, 25).normal = plane(0, 1); }), "25 flipped-normal");
   EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::ImpulseApplied>(r, 44).point = plane(2, 99); }), "44 wrong-contact");
   EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::ImpulseApplied>(r, 44).velocities_after[0][0] *= 0.5; }), "44 wrong-state");
