@@ -232,6 +232,19 @@ TEST(CheckMotion, AnOverlapWhoseWayOutIsNotKnownIsClean) {
   }
 }
 
+/// After two iterations the normal is no more than a guess, and the depth what is proven: that it fits the other way round by chance says nothing.
+TEST(CheckMotion, AContactThatIsNotKnownIsNotCalledFlipped) {
+  const SceneFile scene = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "simulate", "steps": 5, "time_step": 0.1, "integrator": "explicit-euler", "bodies": [
+    {"shape": {"type": "box", "half_extents": [2, 1.081672165790601, 1.381847696408812]}, "velocity": [2.694, 1.011, -2.348], "pose": {"position": [-1.2173894062157147, -1.6355289490958123, -2.777129835975133],
+      "rotation": {"matrix": [[-0.2975024735346543, 0.9513640713540921, -0.07999176193414423], [-0.9060166480474212, -0.3077520485002241, -0.2905555198319784], [-0.30104171090013077, -0.013967117830180207, 0.9535086826651554]]}}},
+    {"shape": {"type": "cylinder", "radius": 1.5, "half_height": 2, "margin": 0.2345350086941435}, "static": true,
+      "pose": {"position": [0, -2.553600387238033, -2.8895152054974167], "rotation": {"quaternion": [-0.036226150658218416, -0.0947763510118033, 0.6854621402910436, -0.7210039968855908]}}}],
+    "method": {"max_iterations": 2, "tolerance": 0.9, "initial_direction": [0.5943329543494913, -0.6850832522324033, 0.421223547400758]}})", {});
+  const Recording recording = record(scene);
+  ASSERT_EQ(recording.result.status, "contact_unknown");
+  EXPECT_EQ(told(recording), "");
+}
+
 TEST(CheckMotion, CastsAtLowLimitsAreClean) {
   RandomScenes random(91);
   for (int k = 0; k < pairs_asked(1500); ++k) {
