@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "algo/cast_meeting.h"
@@ -19,7 +20,7 @@ namespace {
 class Caster : MovingBodies {
  public:
   Caster(const Scene& scene, const Settings& settings, TraceSink* trace)
-      : MovingBodies(scene), scene_(scene), settings_(settings), inner_(static_settings(settings)), trace_(trace) {
+      : MovingBodies(scene), scene_(scene), settings_(settings), at_start_(static_settings(settings)), inner_(with_depth(at_start_)), trace_(trace) {
     for (const Body& body : bodies_) parts_.push_back(convex_parts(body.shape));
     double size = 0;
     for (const double r : reach_) size = std::max(size, r);
@@ -51,7 +52,7 @@ class Caster : MovingBodies {
           for (const Shape& a : parts_[static_cast<std::size_t>(i)])
             for (const Shape& b : parts_[static_cast<std::size_t>(j)]) pairs_.push_back({i, j, &a, &b});
         }
-    if (trace_) (*trace_)(world::CastBegan{edges});
+    if (trace_ && !responded_) (*trace_)(world::CastBegan{edges});  // a cast begins once; after a response it goes on
   }
 
   /// From the bodies' places at `start` (of the whole interval) until two of them meet or the interval ends.
@@ -127,7 +128,7 @@ class Caster : MovingBodies {
   /// GJK at a time, in the trace, and how fast the gap closes at most.
   Gap gap_of(const Pair& p, double time) {
     const Scene two = pair_at(p, time);
-    const Result r = solve_static(two, inner_, trace_, numbers_, &simplices_[{p.shape_a, p.shape_b}]);
+    const Result r = solve_static(two, of_time(time), trace_, numbers_, &simplices_[{p.shape_a, p.shape_b}]);
     numbers_.next_run();
     supports_ += r.support_calls;
     Gap gap = gap_from(p, r);
@@ -136,7 +137,20 @@ class Caster : MovingBodies {
     return gap;
   }
 
+  /// With penetration "none" nothing is known of an overlap at the beginning but that it is one. Later on bodies that touch within rounding need a
+  /// normal: without one it is not known whether they meet, slide or recede.
+  const Settings& of_time(double time) const { return time == 0 && start_ == 0 ? at_start_ : inner_; }
+  static Settings with_depth(Settings settings) {
+    if (settings.penetration == Penetration::none) settings.penetration = Penetration::epa;
+    return settings;
+  }
+
   Gap gap_from(const Pair& p, const Result& r) const {
+    if (!r.signed_distance) {
+      Gap overlap;
+      overlap.known = false, overlap.at_most = r.intersecting ? 0 : std::numeric_limits<double>::infinity();
+      return overlap;
+    }
     Gap gap{*r.signed_distance, *r.normal, *r.witness_a, *r.witness_b};
     gap.known = r.status != word_of(GjkStatus::iteration_limit), gap.at_most = *r.upper_bound;  // EPA's limit is called the same
     gap.bound = gap.closing = closing(p, gap.normal);
@@ -220,7 +234,7 @@ class Caster : MovingBodies {
     m.pair = p;
     if (m.status == CastStatus::miss) return m;
     // The places and the normal at that time, by GJK: the ray's own are as exact as its last plane.
-    const Result r = solve_static(pair_at(p, m.time), inner_, nullptr, numbers_);
+    const Result r = solve_static(pair_at(p, m.time), m.status == CastStatus::initially_overlapping ? at_start_ : inner_, nullptr, numbers_);
     supports_ += r.support_calls;
     m.gap = gap_from(p, r);
     if (!m.gap.known && m.status == CastStatus::hit) m.status = CastStatus::iteration_limit;
@@ -312,6 +326,7 @@ class Caster : MovingBodies {
 
   /// A time at which the pair certainly touches: now, or a little later, and if that is too little, a little more.
   std::optional<double> surely_touching(const Meeting& m) {
+    if (!m.gap.known && at_start_.penetration == Penetration::none) return m.time;
     const double first = std::max(2 * m.gap.distance / std::max(m.gap.bound, 1e-300), 4e-16);
     double step = 0;
     for (int k = 0; k < 60 && m.time + step <= 1; ++k, step = std::max(first, 2 * step)) {
@@ -326,7 +341,9 @@ class Caster : MovingBodies {
   void ended(const Meeting& m) {
     if (!trace_) return;
     if (m.status == CastStatus::initially_overlapping && !m.gap.known)
-      (*trace_)(world::Warning{"way-out-unknown", "The bodies overlap, which is proven. The search for the nearest way out came to its limit: the result has no normal and no witness points."});
+      (*trace_)(world::Warning{"way-out-unknown", at_start_.penetration == Penetration::none
+                                                       ? "The bodies overlap, which is proven. With penetration \"none\" the nearest way out is not looked for: the result has no normal and no witness points."
+                                                       : "The bodies overlap, which is proven. The search for the nearest way out came to its limit: the result has no normal and no witness points."});
     std::vector<int> pair;
     if (m.pair.first >= 0 && m.status != CastStatus::miss) pair = {m.pair.first, m.pair.second};
     (*trace_)(world::CastEnded{iterations_, m.status, m.time, pair});
@@ -353,7 +370,8 @@ class Caster : MovingBodies {
 
   const Scene& scene_;
   const Settings& settings_;
-  const Settings inner_;
+  const Settings at_start_;  ///< of GJK's first runs
+  const Settings inner_;     ///< of all others: the same, with a depth
   std::map<std::pair<const Shape*, const Shape*>, std::vector<SimplexPoint>> simplices_;  ///< of Start::previous
   TraceSink* trace_;
   double target_ = 0, start_ = 0;

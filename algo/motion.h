@@ -1,6 +1,7 @@
 // Bodies that move: where they are at a time, and the static query that everything about motion is made of.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "algo/solve.h"
@@ -39,8 +40,9 @@ struct TurningBound {
   /// The mean speed at most until a gap d > 0 closes. It is open until t = 2 d / (s + sqrt(s^2 + 2 k d)). No shorter gap d' closes at a higher mean speed: t is
   /// concave in d and not negative at 0, so t(d') / d' >= t(d) / d. With s < 0 the other form of the root cancels nothing.
   double until_closed(double gap) const {
-    const double root = std::sqrt(speed * speed + 2 * change * gap);
-    return speed >= 0 ? (speed + root) / 2 : gap * change / (root - speed);
+    const double up = std::max({std::abs(speed), change, gap}) < 1e-140 ? 0x1p600 : 1;  // squares below 1e-308 vanish; a power of two rounds nothing
+    const double s = speed * up, k = change * up, d = gap * up, root = std::sqrt(s * s + 2 * k * d);
+    return (s >= 0 ? (s + root) / 2 : d * k / (root - s)) / up;
   }
 };
 /// From where `body` is now; its velocity apart. 2D and 3D; zero for a body that does not turn. A point r of it, seen from its position, moves along

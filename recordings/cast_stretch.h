@@ -74,6 +74,9 @@ struct CastStretch {
   }
 };
 
+/// MPR's depth is that along its own normal, and no less than the right one.
+inline bool any_way_out(const Settings& settings, double gap) { return settings.penetration == Penetration::mpr && gap < 0; }
+
 inline std::string names_of(const std::array<int, 2>& pair) { return "bodies " + std::to_string(pair[0]) + " and " + std::to_string(pair[1]); }
 
 }  // namespace gjkdbg

@@ -47,7 +47,7 @@ constexpr Followers table[] = {
     {"cast_advanced", {"support_queried of cast", "cast_ended", "impulse_applied"}},
     {"contact_found", {"contact_found", "impulse_applied", "state"}},
     {"impulse_applied", {"impulse_applied", "state"}},
-    {"state", {"state", "cast_began", "cast_ended"}},
+    {"state", {"state", "support_queried of cast", "cast_ended"}},
     {"warning", {"impulse_applied", "state"}},  // that a contact is not known
     {start, {"state", "cast_began", "closed_form_began"}},
 };

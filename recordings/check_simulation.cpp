@@ -281,7 +281,7 @@ struct SimulationCheck {
       }
     for (const auto& [pair, found] : deepest) {
       const auto& [step, contact] = found;
-      if (of_mesh({pair[0], pair[1]})) continue;
+      if (const RunEnds ends = ends_before(c, step); ends.gjk_at_limit || ends.epa_at_limit || of_mesh({pair[0], pair[1]})) continue;  // after a limit the depth is what is proven, and no more
       const Scene two = pair_at(before, {pair[0], pair[1]});
       const WorldSupport a(two.bodies[0], scene.dimension), b(two.bodies[1], scene.dimension);
       const AnyVector& n = contact->normal;

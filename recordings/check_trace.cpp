@@ -62,7 +62,8 @@ void TraceCheck::phases(const Event& event) {
   }
   any_ = true;
   if (phase == motion) {
-    if (ends && moved_) incomplete("The cast ends a second time.");
+    if (begins && (motion_open_ || moved_)) incomplete("The cast begins a second time: after a response it goes on.");
+    else if (ends && moved_) incomplete("The cast ends a second time.");
     else if (ends && !motion_open_) incomplete(std::string(kind) + " stands outside any cast: none has begun.");
     moved_ = moved_ || ends;
     motion_open_ = !ends;

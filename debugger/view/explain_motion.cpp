@@ -41,7 +41,7 @@ Explanation ExplainMotion::operator()(const recorded::CastEnded& e) const {
   switch (e.status) {
     case CastStatus::hit: return {title, "At time " + short_number(e.time) + " " + who + " are within the tolerance of each other and still approaching: this is the time of impact, early by no more than that tolerance."};
     case CastStatus::miss: return responded() ? Explanation{"The cast ends: nothing more is hit", "Nothing more meets before the interval ends."} : Explanation{title, "No pair meets before the interval ends."};
-    case CastStatus::initially_overlapping: return {title, who + " overlap at the beginning: there is no first time to look for." + (recording.result.normal ? "" : " Which way out is the nearest is not known: the search for it came to its limit.")};
+    case CastStatus::initially_overlapping: return {title, who + " overlap at the beginning: there is no first time to look for." + (recording.result.normal ? "" : recording.settings.penetration == Penetration::none ? " Which way out is the nearest is not asked." : " Which way out is the nearest is not known: the search for it came to its limit.")};
     case CastStatus::at_rest: return {title, "Nothing moves any more."};
     case CastStatus::iteration_limit: return {title, "Until time " + short_number(e.time) + " all are surely apart; no more is known within the limit."};
   }

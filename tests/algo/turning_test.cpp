@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "algo/motion.h"
 #include "recordings/check.h"
 #include "recordings/recording.h"
 #include "recordings/scene_file.h"
@@ -52,6 +53,13 @@ TEST(Turning, TheSmallestBodiesHaveAnswers) {
           if (testing::Test::HasFailure()) return;
         }
       }
+}
+
+/// A bound that is too low lets bodies pass through each other.
+TEST(Turning, TheSmallestGapsCloseAsFastAsOthers) {
+  const auto closes = [](double speed, double change, double gap, double size) { return TurningBound{speed * size, change * size}.until_closed(gap * size) / size; };
+  for (const double speed : {1.0, 0.0, -0.5})
+    for (const double size : {0x1p-100, 0x1p-460, 0x1p-600, 0x1p-900}) EXPECT_EQ(closes(speed, 1.5, 0.25, size), closes(speed, 1.5, 0.25, 1)) << speed << " " << size;
 }
 
 }  // namespace

@@ -38,40 +38,40 @@ AnyVector plane(double x, double y) { return Eigen::Vector2d(x, y); }
 TEST(CheckMotion, StepsAfterTheFirstResponse) {
   const Recording right = of_gallery("cast-bounce");
   ASSERT_EQ(told(right), "");
-  ASSERT_EQ(right.events.size(), 48U);
-  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastAdvanced>(r, 43).distance = -5; }), "43 wrong-distance");
-  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastAdvanced>(r, 43).bound = -5; }), "43 inconsistent");
-  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastAdvanced>(r, 35).normal *= -1; }), "35 wrong-normal");
-  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastAdvanced>(r, 35).time += 0.01; }), "35 wrong-time") << "not the run before it, which is of the right time";
+  ASSERT_EQ(right.events.size(), 46U);
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastAdvanced>(r, 42).distance = -5; }), "42 wrong-distance");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastAdvanced>(r, 42).bound = -5; }), "42 inconsistent");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastAdvanced>(r, 34).normal *= -1; }), "34 wrong-normal");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastAdvanced>(r, 34).time += 0.01; }), "34 wrong-time") << "not the run before it, which is of the right time";
   EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::ImpulseApplied>(r, 25).normal = plane(0, 1); }), "25 flipped-normal");
-  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::ImpulseApplied>(r, 44).point = plane(2, 99); }), "44 wrong-contact");
-  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::ImpulseApplied>(r, 44).velocities_after[0][0] *= 0.5; }), "44 wrong-state");
-  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::ImpulseApplied>(r, 44).time += 0.01; }), "44 tunnelling");
-  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::ImpulseApplied>(r, 44).time -= 0.01; }), "44 wrong-time");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::ImpulseApplied>(r, 43).point = plane(2, 99); }), "43 wrong-contact");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::ImpulseApplied>(r, 43).velocities_after[0][0] *= 0.5; }), "43 wrong-state");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::ImpulseApplied>(r, 43).time += 0.01; }), "43 tunnelling");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::ImpulseApplied>(r, 43).time -= 0.01; }), "43 wrong-time");
   EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::State>(r, 26).energy = -77; }), "26 wrong-state");
   EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::State>(r, 26).momentum = plane(3, 3); }), "26 wrong-state");
-  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 47).pair = {0, 7}; }), "47 wrong-pair");
-  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 47).pair = {0, 1}; }), "47 wrong-pair");
-  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 47).status = CastStatus::hit; }), "47 wrong-pair");
-  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 47).status = CastStatus::hit, event_at<recorded::CastEnded>(r, 47).pair = {0, 2}; }), "47 wrong-time");
-  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 47).status = CastStatus::at_rest; }), "47 wrong-answer");
-  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 47).status = CastStatus::initially_overlapping, event_at<recorded::CastEnded>(r, 47).pair = {0, 2}; }), "47 wrong-answer");
-  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 47).time = 0.8; }), "47 wrong-time");
-  EXPECT_EQ(finding_after(right, [](Recording& r) { r.result.support_calls = 99; }), "47 inconsistent");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 45).pair = {0, 7}; }), "45 wrong-pair");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 45).pair = {0, 1}; }), "45 wrong-pair");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 45).status = CastStatus::hit; }), "45 wrong-pair");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 45).status = CastStatus::hit, event_at<recorded::CastEnded>(r, 45).pair = {0, 2}; }), "45 wrong-time");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 45).status = CastStatus::at_rest; }), "45 wrong-answer");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 45).status = CastStatus::initially_overlapping, event_at<recorded::CastEnded>(r, 45).pair = {0, 2}; }), "45 wrong-answer");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::CastEnded>(r, 45).time = 0.8; }), "45 wrong-time");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { r.result.support_calls = 99; }), "45 inconsistent");
   // The second impact and all that follows from it left out: the ball goes on through the wall.
   Recording through = right;
-  through.events.erase(through.events.begin() + 43, through.events.begin() + 46);
+  through.events.erase(through.events.begin() + 42, through.events.begin() + 45);
   EXPECT_NE(told(through).find("tunnelling"), std::string::npos);
 }
 
 TEST(CheckMotion, RunsAreThoseOfBodiesAtRest) {
   const Recording right = of_gallery("cast-bounce");
   EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::GjkEnded>(r, 7).upper_bound = 50; }), "7 inconsistent");
-  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::GjkEnded>(r, 34).lower_bound = 3; }), "34 wrong-bounds");
+  EXPECT_EQ(finding_after(right, [](Recording& r) { event_at<recorded::GjkEnded>(r, 33).lower_bound = 3; }), "33 wrong-bounds");
   EXPECT_EQ(finding_after(right, [](Recording& r) {
-              auto& query = event_at<recorded::SupportQueried>(r, 37);
+              auto& query = event_at<recorded::SupportQueried>(r, 36);
               query.a += plane(0, 0.1), query.w += plane(0, 0.1);
-            }), "37 wrong-support");
+            }), "36 wrong-support");
   Recording deep = of_gallery("cast-initially-overlapping");
   const auto epa = [](const Event& e) { return std::holds_alternative<recorded::EpaEnded>(e); };
   const auto step = static_cast<std::size_t>(std::find_if(deep.events.begin(), deep.events.end(), epa) - deep.events.begin());
@@ -230,6 +230,19 @@ TEST(CheckMotion, AnOverlapWhoseWayOutIsNotKnownIsClean) {
     EXPECT_FALSE(cast_by(ellipses, method, 4).result.normal) << word_of(method);
     EXPECT_TRUE(cast_by(ellipses, method, 512).result.normal) << word_of(method);
   }
+}
+
+/// After two iterations the normal is no more than a guess, and the depth what is proven: that it fits the other way round by chance says nothing.
+TEST(CheckMotion, AContactThatIsNotKnownIsNotCalledFlipped) {
+  const SceneFile scene = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "simulate", "steps": 5, "time_step": 0.1, "integrator": "explicit-euler", "bodies": [
+    {"shape": {"type": "box", "half_extents": [2, 1.081672165790601, 1.381847696408812]}, "velocity": [2.694, 1.011, -2.348], "pose": {"position": [-1.2173894062157147, -1.6355289490958123, -2.777129835975133],
+      "rotation": {"matrix": [[-0.2975024735346543, 0.9513640713540921, -0.07999176193414423], [-0.9060166480474212, -0.3077520485002241, -0.2905555198319784], [-0.30104171090013077, -0.013967117830180207, 0.9535086826651554]]}}},
+    {"shape": {"type": "cylinder", "radius": 1.5, "half_height": 2, "margin": 0.2345350086941435}, "static": true,
+      "pose": {"position": [0, -2.553600387238033, -2.8895152054974167], "rotation": {"quaternion": [-0.036226150658218416, -0.0947763510118033, 0.6854621402910436, -0.7210039968855908]}}}],
+    "method": {"max_iterations": 2, "tolerance": 0.9, "initial_direction": [0.5943329543494913, -0.6850832522324033, 0.421223547400758]}})", {});
+  const Recording recording = record(scene);
+  ASSERT_EQ(recording.result.status, "contact_unknown");
+  EXPECT_EQ(told(recording), "");
 }
 
 TEST(CheckMotion, CastsAtLowLimitsAreClean) {
