@@ -117,8 +117,7 @@ struct Apply {
     if (frame.mpr_status) fresh();  // of a mesh's next triangle; after GJK it goes on from there
     frame.stage = Frame::Stage::mpr;
     frame.simplex.clear(), frame.barycentric.clear(), frame.closest.reset(), frame.lower_bound.reset(), frame.upper_bound.reset();
-    frame.interior = e.interior;
-    frame.direction = -e.interior, frame.answered = false;
+    frame.interior = e.interior, frame.direction = -e.interior, frame.answered = false;
   }
 
   void operator()(const recorded::PortalFound& e) {

@@ -87,6 +87,18 @@ TEST_F(SmallWindow, WhatIsToBeMeasuredIsExplainedWithoutScrolling) {
   }
 }
 
+/// What the rail has opened is gone with the rail.
+TEST_F(SmallWindow, EscapeAfterTheRailHasGone) {
+  for (const Key hides : {Key::e, Key::x}) {
+    host.press(Key::g);
+    host.frame(), host.frame();
+    host.press(hides);
+    host.press(Key::escape);
+    host.frame();
+    EXPECT_FALSE(app.lecture || app.show_lab);
+  }
+}
+
 /// Rows of numbers that are too wide for the panel, of far-out places, are written smaller.
 TEST_F(SmallWindow, NoNumberIsCutOffInTheStepsPanel) {
   for (const Lesson& lesson : app.gallery().lessons)

@@ -96,6 +96,7 @@ void App::frame() {
 }
 
 void App::panels(const Area& window) {
+  rail_open_ = false;  // unless the rail is drawn, and open
   const float gap = theme.px(6), top = theme.px(48);
   top_bar({0, 0, window.width, top});
   if (!session.is_open()) return;
@@ -374,7 +375,6 @@ void App::icon_rail(const Area& area) {
   icon("##gallery", "Gallery (G)", true);
   icon("##scene", "Scene: bodies, method, what is shown (G)", false);
   if (const auto now = std::exchange(rail_opens_, opens)) ImGui::OpenPopup(popup_of(*now));  // a frame later: the click itself still closes what is open
-  rail_open_ = false;
   for (const bool gallery : {true, false}) {
     ImGui::SetNextWindowPos({area.x + area.width + theme.px(4), area.y});
     ImGui::SetNextWindowSize({theme.px(290), std::min(area.height, theme.px(620))});

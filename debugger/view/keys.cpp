@@ -57,8 +57,9 @@ void App::keys() {
     if (key_pressed(Key::escape)) ImGui::ClosePopupToLevel(ImGui::GetCurrentContext()->OpenPopupStack.Size - 1, true);
     return;
   }
-  if (rail_open_ && key_pressed(Key::escape)) return ImGui::ClosePopupToLevel(0, true);
-  if (find_.open && key_pressed(Key::escape) && !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel)) {
+  const bool popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+  if (rail_open_ && popup && key_pressed(Key::escape)) return ImGui::ClosePopupToLevel(0, true);
+  if (find_.open && !popup && key_pressed(Key::escape)) {
     find_.open = false;
     return;
   }

@@ -329,7 +329,7 @@ const char* told_of(App::ChartView view) {
 
 void chart_area(App& app, ImVec2 at, ImVec2 size) {
   const MeasuredChart& chart = *app.measured.chart;
-  const bool nothing = app.chart_view == App::ChartView::iterations ? chart.ladder.empty() : app.chart_view == App::ChartView::price ? chart.price.empty() : app.chart_view == App::ChartView::motion && chart.motion.empty();
+  const bool nothing = app.chart_view == App::ChartView::iterations ? chart.ladder.empty() : app.chart_view == App::ChartView::price ? chart.price.empty() : app.chart_view == App::ChartView::motion ? chart.motion.empty() : chart.families.empty();
   if (nothing) return wrapped("Not in this chart: only one of all families and methods has it.", app.theme.palette.text_soft);
   switch (app.chart_view) {
     case App::ChartView::error: return families(app, at, size, false);

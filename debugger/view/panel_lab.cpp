@@ -61,7 +61,10 @@ void atlas_area(App& app, ImVec2 at, ImVec2 size) {
     pen.x += width;
   }
   const std::size_t rows = atlas.methods.size(), columns = atlas.families.size();
-  if (rows == 0 || columns == 0) return;
+  if (rows == 0 || columns == 0) {
+    ImGui::SetCursorScreenPos({at.x, pen.y + theme.px(32)});
+    return wrapped("This atlas has no families of pairs.", p.text_soft);
+  }
   const float label = theme.px(150), top = pen.y + theme.px(52), gap = theme.px(2);
   const float width = std::min(theme.px(90), (size.x - label) / static_cast<float>(columns)), height = std::clamp((at.y + size.y - top) / static_cast<float>(rows), theme.px(18), theme.px(34));
   for (std::size_t f = 0; f < columns; ++f) {
