@@ -49,7 +49,9 @@ class BooleanGjk {
     push(query());
     d_ = -w(0);
     while (true) {
-      if (!(d_.cwiseAbs().maxCoeff() > 0)) return finish(GjkStatus::touching);
+      const S most = d_.cwiseAbs().maxCoeff();
+      if (!(most > 0)) return finish(GjkStatus::touching);
+      if (most > long_one || most < 1 / long_one) d_ /= most;
       if (result_.iterations >= max_iterations_) return finish(GjkStatus::iteration_limit);
       ++result_.iterations;
       const Point a = query();
@@ -61,6 +63,9 @@ class BooleanGjk {
   }
 
  private:
+  /// Across an edge d is of the third power of lengths, or the fifth, and the support of an ellipsoid squares its product with another. Of lengths up to 2^16 in
+  /// float and 2^64 in double (working_scale.h) these squares are finite, and not zero, for a d between this and one over it: (2^16 1e10)^2 = 4e29, (2^64 1e60)^2 = 3e158.
+  static constexpr S long_one = std::is_same_v<S, float> ? S(1e10) : S(1e60);
   static constexpr S leans = S(1e-3);  ///< what is left of long vectors, below which rounding turns it by more than a thousand of its units
 
   /// Part of the simplex, and the direction from it towards the origin. Indices into points_: 0 is A, the newest.

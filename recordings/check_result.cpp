@@ -205,7 +205,7 @@ struct Judge {
     for (std::size_t i = 0; i < r.contacts->size(); ++i) {
       const ContactPoint& p = (*r.contacts)[i];
       const std::string name = "Contact point " + std::to_string(i) + ", " + text_of(p.point_a) + " and " + text_of(p.point_b) + ", " + text_of(p.depth) + " deep, ";
-      for (std::size_t before = 0; before < i; ++before)
+      for (std::size_t before = 0; before < i && c.world <= 1e-10 * c.size; ++before)  // far out in the world neighbours may round to one point
         if (const ContactPoint& q = (*r.contacts)[before]; (p.point_a - q.point_a).norm() <= 1e-10 * c.size && (p.point_b - q.point_b).norm() <= 1e-10 * c.size)  // ours joins what is within 1e-9 of the bodies; in single precision, too: neighbours may be as near as that rounds
           c.find("wrong-contact", name + "is point " + std::to_string(before) + " again.", Finding::Severity::warning);
       const double off = r.normal ? AnyVector(p.point_b - p.point_a + p.depth * *r.normal).stableNorm() : std::abs(AnyVector(p.point_b - p.point_a).stableNorm() - std::abs(p.depth));

@@ -55,5 +55,29 @@ TEST(BooleanGjk, TheLargestLengthsInFloat) {
   EXPECT_GT(apart, 500);
 }
 
+/// A direction across an edge is of the third power of lengths, or the fifth, and an ellipsoid's support squares it: far from 1 the square was no number, or zero, the
+/// support the ellipsoid's centre, and the bodies were called apart.
+TEST(BooleanGjk, EllipsoidsOfLengthsFarFromOneInFloat) {
+  RandomScenes random(23);
+  int overlapping = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const double size = i % 2 == 0 ? 5e4 : 3e-5;
+    const auto vector = [&](double least, double most) { return AnyVector(Eigen::Vector3d(random.uniform(least, most), random.uniform(least, most), random.uniform(least, most)) * size); };
+    Scene scene;
+    Body ellipsoid{"", {Ellipsoid{vector(0.3, 1)}, 0}, identity_pose(3)}, box{"", {Box{vector(-1, -0.3), vector(0.3, 1), false}, 0}, identity_pose(3)};
+    box.pose.position = vector(-1.3, 1.3);
+    scene.bodies = {ellipsoid, box};
+    scene.query = Query::penetration;
+    const double right = *solve(scene, resolve_settings({}, scene)).signed_distance;
+    if (std::abs(right) < 1e-2 * size) continue;
+    scene.query = Query::intersect;
+    Method method;
+    method.name = MethodName::gjk_boolean, method.scalar = Scalar::float_precision;
+    EXPECT_EQ(solve(scene, resolve_settings(method, scene)).intersecting, right < 0) << i << " " << right / size;
+    overlapping += right < 0;
+  }
+  EXPECT_GT(overlapping, 200);
+}
+
 }  // namespace
 }  // namespace gjkdbg

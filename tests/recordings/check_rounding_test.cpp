@@ -88,6 +88,21 @@ TEST(CheckRounding, OfThreeInARowOneRespondsTwice) {
   EXPECT_EQ(told_first(right, last, [](Event& e) { auto& impulse = std::get<recorded::ImpulseApplied>(e); impulse.velocities_after = impulse.velocities_before, impulse.impulse.setZero(); }), "0 wrong-state");
 }
 
+TEST(CheckRounding, ContactsThatAreOnePointFarOutInTheWorld) {
+  const Recording recording = run_of(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "contact", "bodies": [
+    {"shape": {"type": "box", "half_extents": [6.6e-34, 2.2e-34, 3.3e-34]}, "pose": {"position": [-6107.295253598274, 157664.34911055432, -18008346.699071646]}},
+    {"shape": {"type": "capsule", "radius": 2.7e-34, "half_height": 2.6e-34, "axis": "x"}, "pose": {"position": [-6107.295253598274, 157664.34911055432, -18008346.699071646]}}]})");
+  ASSERT_GT(recording.result.contacts->size(), 1U);
+  EXPECT_EQ(said_of(recording), "");
+}
+
+TEST(CheckRounding, DirectionsOfYesOrNoAreNumbersHoweverLongTheBodies) {
+  const Recording recording = run_of(R"({"format": "gjk-scene", "version": 1, "dimension": 2, "query": "intersect", "bodies": [
+    {"shape": {"type": "ellipse", "radii": [4.4865194552903456e+17, 1.0746154383928972e+18]}, "pose": {"position": [1.7122788410008212e+22, -5.957293919457172e+19], "rotation": {"angle": 225.24011040059375}}},
+    {"shape": {"type": "box", "half_extents": [5.047246572745221e+17, 2.686538595982243e+17]}, "pose": {"position": [1.712211710198478e+22, -6.0249897453588865e+19], "rotation": {"angle": 225.24011040059375}}}], "method": {"name": "gjk-boolean"}})");
+  EXPECT_EQ(said_of(recording), "");
+}
+
 TEST(CheckRounding, ContactsOfANormalInSinglePrecision) {
   const Recording recording = run_of(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "contact", "bodies": [
     {"shape": {"type": "box", "half_extents": [0.4, 0.99884752656089, 0.0008]}, "pose": {"position": [0, 0, 0], "rotation": {"axis": [0, 0, 1], "angle": 45}}},
