@@ -1,6 +1,8 @@
 // The window in-process, without a display: keys and clicks through ImGui's own input, the step seen to change, pictures not blank.
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -351,7 +353,7 @@ TEST_F(Window, LinkedCamerasTurnTogether) {
 }
 
 TEST_F(Window, ShowsABrokenFileInTheWindowAndKeepsTheLast) {
-  const auto folder = std::filesystem::temp_directory_path() / "gjkdbg-view-test";
+  const auto folder = std::filesystem::temp_directory_path() / ("gjkdbg-view-test-" + std::to_string(getpid()));
   std::filesystem::create_directories(folder);
   const auto file = folder / "broken.scene.json";
   { std::ofstream(file) << "{\"format\": \"gjk-scene\", \"version\": 1, \"dimension\": 7}"; }
