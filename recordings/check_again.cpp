@@ -63,14 +63,12 @@ void tell_changed(const Recording& recording, std::vector<Finding>& findings) {
   if (s.left > 1 || s.right > 1) return;
   const bool event = s.left + s.right > 0;
   const std::size_t step = std::min(s.first, recording.events.size() - 1);
-  const auto only = [&](const Recording& r, std::size_t count, bool result) {
-    Recording out = r;
-    out.events.assign(r.events.begin() + static_cast<std::ptrdiff_t>(s.first), r.events.begin() + static_cast<std::ptrdiff_t>(s.first + count));
-    if (!result) out.result = recording.result;
-    return out;
+  const auto only = [&](const Recording& r, std::size_t count, const Result& result) {
+    const auto from = r.events.begin() + static_cast<std::ptrdiff_t>(s.first);
+    return Recording{r.generator, r.scene, r.settings, {from, from + static_cast<std::ptrdiff_t>(count)}, result};
   };
-  const std::optional<Difference> in_event = event ? first_difference(only(recording, s.left, false), only(again, s.right, false)) : std::nullopt;
-  const std::optional<Difference> in_result = first_difference(only(recording, 0, true), only(again, 0, true));
+  const std::optional<Difference> in_event = event ? first_difference(only(recording, s.left, recording.result), only(again, s.right, recording.result)) : std::nullopt;
+  const std::optional<Difference> in_result = first_difference(only(recording, 0, recording.result), only(again, 0, again.result));
   if (in_event.has_value() == in_result.has_value()) return;
   const Difference& d = in_event ? *in_event : *in_result;
   double size = 0;

@@ -146,7 +146,8 @@ double outside(const Scene& scene, std::size_t body, const AnyVector& point);
 /// What witnesses that are wrong are instead, a sentence; empty where that is not known.
 std::string mistaken_witnesses(CheckContext& context, double slack);
 
-/// Of our own recordings: what the same run once more gives otherwise, where that is one step or the result alone, and nothing was found up to there.
+/// Of our own recordings: the one step that the same run once more gives otherwise, or the result. Told unless something is found at that step already; errors found at other
+/// steps come of it, and give way to it.
 void tell_changed(const Recording& recording, std::vector<Finding>& findings);
 
 /// Yes or no where the bodies touch, or miss it by less than distances are judged by; `best_plane` as in GjkCheck, over the whole recording.

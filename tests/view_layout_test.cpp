@@ -99,7 +99,7 @@ TEST_F(SmallWindow, EscapeAfterTheRailHasGone) {
   }
 }
 
-/// Rows of numbers that are too wide for the panel, of far-out places, are written smaller.
+/// Numbers of far-out places are too wide for the panel: they go on in the next line.
 TEST_F(SmallWindow, NoNumberIsCutOffInTheStepsPanel) {
   for (const Lesson& lesson : app.gallery().lessons)
     for (const std::string& name : lesson.scenes) {
