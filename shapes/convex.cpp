@@ -45,68 +45,94 @@ void Convex<D, S>::set_vertices(std::vector<Vector<D, double>> points, double sc
 }
 
 template <int D, class S>
-template <class Geometry>
-void Convex<D, S>::set(const Geometry& g, double scale) {
-  const auto scaled = [&](double length) { return static_cast<S>(length * scale); };
-  if constexpr (std::is_same_v<Geometry, Sphere>) {
-    radius_ = g.radius * scale;
-  } else if constexpr (std::is_same_v<Geometry, Box>) {
-    BoxCore<D, S> core;
-    Vector<D, double> low = g.min, high = g.max;
-    for (int i = 0; i < D; ++i) reference_[i] = exact_reference(low[i], high[i]);
-    low = (low - reference_) * scale, high = (high - reference_) * scale;
-    core.corners = {high.template cast<S>(), low.template cast<S>()};
-    extent_ = low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm();
-    reference_ *= scale;
-    vertices_ = 1 << D;
-    core_ = core;
-  } else if constexpr (std::is_same_v<Geometry, Capsule>) {
-    core_ = SegmentCore<D, S>{g.axis, scaled(g.half_height)};
-    extent_ = g.half_height * scale;
-    radius_ = g.radius * scale;
-    vertices_ = 2;
-  } else if constexpr (std::is_same_v<Geometry, Ellipsoid>) {
-    const Vector<D, double> radii = g.radii;
-    core_ = EllipsoidCore<D, S>{(radii * scale).template cast<S>()};
-    extent_ = radii.maxCoeff() * scale;
-    polytope_ = false, vertices_ = 0;
-  } else if constexpr (std::is_same_v<Geometry, PointSet>) {
-    const bool reduce = g.kind == PointSetKind::hull || g.kind == PointSetKind::polygon;
-    std::vector<Vector<D, double>> points(g.points.begin(), g.points.end());
-    if (!reduce && (D != 2 || points.size() < 3)) return set_vertices(std::move(points), scale);
-    const ConvexHull hull = convex_hull(g.points, D);
-    if (hull.rank < D) return set_vertices(std::move(points), scale);  // flat to 1e-14 of the size, which is more than is rounded off elsewhere
-    points.clear();
-    const bool polygon = D == 2 && hull.faces.front().size() >= 3;
-    std::vector<int> corners = polygon ? hull.faces.front() : hull.vertices;
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());  // as given, where they are given in this order
-    for (const int i : corners) points.push_back(g.points[i]);
-    set_vertices(std::move(points), scale, polygon);
-    if constexpr (D == 3)
-      if (hull.rank == 3 && hull.vertices.size() >= table_from && !hull.neighbours.empty()) {
-        const VertexFours<D, S>& in_core = std::get<VerticesCore<D, S>>(core_).vertices;
-        std::vector<Vector<D, S>> vertices;
-        for (std::size_t i = 0; i < in_core.size(); ++i) vertices.push_back(in_core[i]);
-        core_ = HullCore<S>(vertices, hull);
-      }
-  } else if constexpr (std::is_same_v<Geometry, Sum>) {
-    const auto first = std::make_shared<const Convex>(*g.first, scale), second = std::make_shared<const Convex>(*g.second, scale);
-    core_ = SumCore<D, S>{first, second};
-    reference_ = first->reference() + second->reference();
-    extent_ = first->extent() + second->extent();
-    radius_ = first->radius() + second->radius();
-    polytope_ = first->polytope() && second->polytope();
-    vertices_ = polytope_ ? std::max(first->vertices(), second->vertices()) : 0;
-    if (std::holds_alternative<PointCore<D, S>>(first->core())) core_ = Core(second->core());
-    if (std::holds_alternative<PointCore<D, S>>(second->core())) core_ = Core(first->core());
-  } else if constexpr (D == 3) {
-    if constexpr (std::is_same_v<Geometry, Cylinder>) core_ = CylinderCore<S>{g.axis, scaled(g.radius), scaled(g.half_height)};
-    if constexpr (std::is_same_v<Geometry, Cone>) core_ = ConeCore<S>{g.axis, scaled(g.radius), scaled(g.half_height)};
-    if constexpr (std::is_same_v<Geometry, Cylinder> || std::is_same_v<Geometry, Cone>) {
-      extent_ = std::hypot(g.radius, g.half_height) * scale;
-      polytope_ = g.radius == 0, vertices_ = polytope_ ? 2 : 0;
+void Convex<D, S>::set(const Sphere& sphere, double scale) {
+  radius_ = sphere.radius * scale;
+}
+
+template <int D, class S>
+void Convex<D, S>::set(const Box& box, double scale) {
+  Vector<D, double> low = box.min, high = box.max;
+  for (int i = 0; i < D; ++i) reference_[i] = exact_reference(low[i], high[i]);
+  low = (low - reference_) * scale, high = (high - reference_) * scale;
+  BoxCore<D, S> core;
+  core.corners = {high.template cast<S>(), low.template cast<S>()};
+  core_ = core;
+  extent_ = low.cwiseAbs().cwiseMax(high.cwiseAbs()).norm();
+  reference_ *= scale;
+  vertices_ = 1 << D;
+}
+
+template <int D, class S>
+void Convex<D, S>::set(const Capsule& capsule, double scale) {
+  core_ = SegmentCore<D, S>{capsule.axis, static_cast<S>(capsule.half_height * scale)};
+  extent_ = capsule.half_height * scale;
+  radius_ = capsule.radius * scale;
+  vertices_ = 2;
+}
+
+template <int D, class S>
+void Convex<D, S>::set(const Ellipsoid& ellipsoid, double scale) {
+  const Vector<D, double> radii = ellipsoid.radii;
+  core_ = EllipsoidCore<D, S>{(radii * scale).template cast<S>()};
+  extent_ = radii.maxCoeff() * scale;
+  polytope_ = false, vertices_ = 0;
+}
+
+template <int D, class S>
+void Convex<D, S>::set(const Cylinder& cylinder, double scale) {
+  set_round<CylinderCore<S>>(cylinder, scale);
+}
+template <int D, class S>
+void Convex<D, S>::set(const Cone& cone, double scale) {
+  set_round<ConeCore<S>>(cone, scale);
+}
+
+template <int D, class S>
+template <class RoundCore, class Geometry>
+void Convex<D, S>::set_round(const Geometry& round, double scale) {
+  if constexpr (D == 3) core_ = RoundCore{round.axis, static_cast<S>(round.radius * scale), static_cast<S>(round.half_height * scale)};
+  extent_ = std::hypot(round.radius, round.half_height) * scale;
+  polytope_ = round.radius == 0, vertices_ = polytope_ ? 2 : 0;
+}
+
+template <int D, class S>
+void Convex<D, S>::set(const PointSet& point_set, double scale) {
+  const bool reduce = point_set.kind == PointSetKind::hull || point_set.kind == PointSetKind::polygon;
+  std::vector<Vector<D, double>> points(point_set.points.begin(), point_set.points.end());
+  if (!reduce && (D != 2 || points.size() < 3)) return set_vertices(std::move(points), scale);
+  const ConvexHull hull = convex_hull(point_set.points, D);
+  if (hull.rank < D) return set_vertices(std::move(points), scale);  // flat to 1e-14 of the size, which is more than is rounded off elsewhere
+  points.clear();
+  const bool polygon = D == 2 && hull.faces.front().size() >= 3;
+  std::vector<int> corners = polygon ? hull.faces.front() : hull.vertices;
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());  // as given, where they are given in this order
+  for (const int i : corners) points.push_back(point_set.points[i]);
+  set_vertices(std::move(points), scale, polygon);
+  if constexpr (D == 3)
+    if (hull.rank == 3 && hull.vertices.size() >= table_from && !hull.neighbours.empty()) {
+      const VertexFours<D, S>& in_core = std::get<VerticesCore<D, S>>(core_).vertices;
+      std::vector<Vector<D, S>> vertices;
+      for (std::size_t i = 0; i < in_core.size(); ++i) vertices.push_back(in_core[i]);
+      core_ = HullCore<S>(vertices, hull);
     }
-  }
+}
+
+template <int D, class S>
+void Convex<D, S>::set(const Mesh&, double) {
+  assert(false && "a mesh is not convex: its triangles are");
+}
+
+template <int D, class S>
+void Convex<D, S>::set(const Sum& sum, double scale) {
+  const auto first = std::make_shared<const Convex>(*sum.first, scale), second = std::make_shared<const Convex>(*sum.second, scale);
+  core_ = SumCore<D, S>{first, second};
+  reference_ = first->reference() + second->reference();
+  extent_ = first->extent() + second->extent();
+  radius_ = first->radius() + second->radius();
+  polytope_ = first->polytope() && second->polytope();
+  vertices_ = polytope_ ? std::max(first->vertices(), second->vertices()) : 0;
+  if (std::holds_alternative<PointCore<D, S>>(first->core())) core_ = Core(second->core());
+  if (std::holds_alternative<PointCore<D, S>>(second->core())) core_ = Core(first->core());
 }
 
 template <int D, class S>

@@ -73,8 +73,17 @@ class Convex {
   bool polytope_ = true;
   int vertices_ = 1;
 
-  template <class Geometry>
-  void set(const Geometry& geometry, double scale);
+  void set(const Sphere& sphere, double scale);
+  void set(const Box& box, double scale);
+  void set(const Capsule& capsule, double scale);
+  void set(const Cylinder& cylinder, double scale);
+  void set(const Cone& cone, double scale);
+  void set(const Ellipsoid& ellipsoid, double scale);
+  void set(const PointSet& point_set, double scale);
+  void set(const Mesh& mesh, double scale);
+  void set(const Sum& sum, double scale);
+  template <class RoundCore, class Geometry>
+  void set_round(const Geometry& round, double scale);  ///< a cylinder or a cone
   void set_vertices(std::vector<Vector<D, double>> points, double scale, bool polygon = false);  ///< polygon: corners, counter-clockwise
 };
 
