@@ -127,6 +127,13 @@ void axes_plot(App& app, float width, float height) {
   pointed.show(app);
 }
 
+/// A run of SAT that no GJK follows.
+bool only_axes(const std::vector<Event>& events) {
+  const auto is_axis = [](const Event& event) { return std::holds_alternative<recorded::AxisTested>(event); };
+  const auto is_gjk = [](const Event& event) { return std::holds_alternative<recorded::GjkBegan>(event); };
+  return std::count_if(events.begin(), events.end(), is_axis) > 1 && std::none_of(events.begin(), events.end(), is_gjk);
+}
+
 /// Why there is nothing that closes in.
 const char* why_no_curve(const Recording& recording) {
   switch (recording.settings.name) {
@@ -139,22 +146,174 @@ const char* why_no_curve(const Recording& recording) {
   }
 }
 
-/// The length of the momentum, from 0 to its greatest, which stands at the right.
-void momentum_curve(App& app, ImVec2 from, ImVec2 to, double first, double last) {
-  double most = 0;
-  for (const Event& event : app.session.recording().events)
-    if (const auto* e = std::get_if<recorded::State>(&event)) most = std::max(most, e->momentum.norm());
-  if (!(most > 0)) return;
-  for (const auto& [value, y] : {std::pair(most, from.y), {0.0, to.y}})
-    ImGui::GetWindowDrawList()->AddText(app.theme.small, app.theme.small->FontSize * 0.85f, {to.x + app.theme.px(6), y - app.theme.px(6)}, packed(app.theme.palette.text_soft), short_number(value).c_str());
-  std::optional<ImVec2> before;
-  float drawn = 0;
-  for (const Event& event : app.session.recording().events)
-    if (const auto* e = std::get_if<recorded::State>(&event)) {
-      const ImVec2 here{from.x + static_cast<float>((e->time - first) / std::max(last - first, 1e-300)) * (to.x - from.x), to.y - static_cast<float>(e->momentum.norm() / most) * (to.y - from.y)};
-      if (before) drawn = dashed_piece(app.theme, *before, here, app.theme.palette.text_soft, drawn);
-      before = here;
+/// Where many samples fall into one pixel its least and its greatest stand for all.
+template <class PlaceOfStep>
+std::vector<Sample> thinned(const std::vector<Sample>& all, float pixels, const PlaceOfStep& x_of) {
+  if (static_cast<float>(all.size()) <= 2 * pixels) return all;
+  std::vector<Sample> kept;
+  for (std::size_t i = 0; i < all.size();) {
+    std::size_t least = i, most = i, end = i;
+    for (const float x = x_of(all[i].step); end < all.size() && x_of(all[end].step) < x + 2; ++end) {
+      if (all[end].gap < all[least].gap) least = end;
+      if (all[end].gap > all[most].gap) most = end;
     }
+    kept.push_back(all[std::min(least, most)]), kept.push_back(all[std::max(least, most)]);
+    i = end;
+  }
+  return kept;
+}
+
+/// Gaps over steps, on a logarithmic scale: its range, and what is drawn in it.
+class GapPlot {
+ public:
+  /// `floor`: of rounding, or zero. Gaps are positive; not both lists are empty.
+  GapPlot(const Theme& theme, ImVec2 at, ImVec2 size, const std::vector<Sample>& samples, const std::vector<Sample>& others, std::size_t last_step, double floor)
+      : theme_(theme), at_(at), from_{at.x + theme.px(52), at.y + theme.px(28)}, to_{at.x + size.x - theme.px(14), at.y + size.y - theme.px(12)},
+        last_step_(last_step), low_(floor > 0 ? floor : std::numeric_limits<double>::infinity()), high_(floor) {
+    for (const auto* list : {&samples, &others})
+      for (const Sample& x : *list) low_ = std::min(low_, x.gap), high_ = std::max(high_, x.gap);
+    log_low_ = std::floor(std::log10(low_)) - 1, log_high_ = std::max(log_low_ + 1, std::ceil(std::log10(high_)));
+  }
+
+  ImVec2 place(const Sample& x) const { return {x_of(x.step), y_of(std::log10(x.gap))}; }
+
+  void grid() const {
+    for (int i = 0; i <= 2; ++i) {
+      const double log = std::round(log_low_ + (log_high_ - log_low_) * i / 2);
+      char text[16];
+      std::snprintf(text, sizeof text, "1e%+d", static_cast<int>(log));
+      draw_->AddText(theme_.small, theme_.small->FontSize, {at_.x + theme_.px(10), y_of(log) - theme_.px(7)}, packed(theme_.palette.text_faint), text);
+      draw_->AddLine({from_.x, y_of(log)}, {to_.x, y_of(log)}, packed(theme_.palette.field), 1);
+    }
+  }
+
+  /// A dashed line across, with its name below or above it; nothing where the value is out of range.
+  void level(double value, const char* name, Colour colour, bool below) const {
+    if (!(value >= low_ * 0.999) || value > high_) return;
+    const float y = y_of(std::log10(value)), font = theme_.small->FontSize * 0.85f;
+    for (float x = from_.x; x < to_.x; x += theme_.px(8)) draw_->AddLine({x, y}, {std::min(x + theme_.px(4), to_.x), y}, packed(colour), 1);
+    const ImVec2 place{from_.x + theme_.px(4), below ? y + 1 : y - theme_.px(13)}, extent = theme_.small->CalcTextSizeA(font, 1e9f, 0, name);
+    draw_->AddRectFilled(place, {place.x + extent.x, place.y + extent.y}, packed(theme_.palette.view));  // no grid line through it
+    draw_->AddText(theme_.small, font, place, packed(colour), name);
+  }
+
+  /// `other`: of the run beside it.
+  void curve(const std::vector<Sample>& all, bool other) const {
+    const Palette& p = theme_.palette;
+    const std::vector<Sample> shown = thinned(all, to_.x - from_.x, [&](std::size_t step) { return x_of(step); });
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+      const Colour colour = other ? p.text_soft : shown[i].phase == 0 ? p.simplex : p.chosen;
+      const ImVec2 here = place(shown[i]);
+      if (i > 0 && shown[i - 1].phase == shown[i].phase && shown[i - 1].run == shown[i].run) draw_->AddLine(place(shown[i - 1]), here, packed(colour), theme_.px(other ? 1.2f : 2));
+      if (other) draw_->AddCircle(here, theme_.px(3), packed(colour), 12, theme_.px(1.2f));
+      else draw_->AddCircleFilled(here, theme_.px(2.5f), packed(colour));
+    }
+  }
+
+  void cursor(std::size_t step) const { draw_->AddLine({x_of(step), from_.y}, {x_of(step), to_.y}, packed(theme_.palette.text.with_alpha(0.6)), 1); }
+
+ private:
+  float x_of(std::size_t step) const { return from_.x + (last_step_ == 0 ? 0 : static_cast<float>(step) / static_cast<float>(last_step_)) * (to_.x - from_.x); }
+  float y_of(double log) const { return to_.y - static_cast<float>((log - log_low_) / (log_high_ - log_low_)) * (to_.y - from_.y); }
+
+  const Theme& theme_;
+  ImDrawList* draw_ = ImGui::GetWindowDrawList();
+  ImVec2 at_, from_, to_;
+  std::size_t last_step_;
+  double low_, high_, log_low_, log_high_;
+};
+
+/// What a moving scene's plot shows: a distance or an energy at a time.
+struct TimedValue {
+  double time, value;
+  int series;  ///< of a cast each pair is one
+  std::size_t step;
+};
+int series_of(const std::array<int, 2>& pair) { return pair[0] * 1000 + pair[1]; }
+
+std::vector<TimedValue> timed_values(const Recording& recording) {
+  const bool cast = recording.scene.scene.query == Query::cast;
+  std::vector<TimedValue> values;
+  for (std::size_t i = 0; i < recording.events.size(); ++i) {
+    const Event& event = recording.events[i];
+    if (const auto* e = std::get_if<recorded::CastAdvanced>(&event); e && cast) values.push_back({e->time, e->distance, series_of(e->pair), i});
+    if (const auto* e = std::get_if<recorded::State>(&event); e && !cast) values.push_back({e->time, e->energy, 0, i});
+  }
+  return values;
+}
+
+/// Distances or energies over time: their range, and what is drawn in it.
+class TimePlot {
+ public:
+  TimePlot(const Theme& theme, ImVec2 at, ImVec2 size, const std::vector<TimedValue>& values, bool cast)
+      : theme_(theme), at_(at), from_{at.x + theme.px(64), at.y + theme.px(28)}, to_{at.x + size.x - theme.px(cast ? 14 : 58), at.y + size.y - theme.px(22)},
+        low_(cast ? 0 : values[0].value), high_(values[0].value), first_(cast ? 0 : values[0].time), last_(cast ? 1 : values[0].time) {
+    for (const TimedValue& x : values) low_ = std::min(low_, x.value), high_ = std::max(high_, x.value), last_ = std::max(last_, x.time);
+    if (const double middle = (low_ + high_) / 2; !(high_ - low_ > 1e-6 * std::abs(middle))) {  // what stays is a line, not its rounding drawn large
+      const double beside = std::max(1e-12, std::abs(middle) * 1e-3);
+      low_ = middle - beside, high_ = middle + beside;
+    }
+  }
+
+  ImVec2 place(const TimedValue& x) const { return {x_of(x.time), y_of(x.value)}; }
+
+  void axes() const {
+    const Palette& p = theme_.palette;
+    const float font = theme_.small->FontSize * 0.85f;
+    for (const double value : {low_, high_}) {
+      draw_->AddLine({from_.x, y_of(value)}, {to_.x, y_of(value)}, packed(p.field), 1);
+      draw_->AddText(theme_.small, font, {at_.x + theme_.px(8), y_of(value) - theme_.px(6)}, packed(p.text_faint), short_number(value).c_str());
+    }
+    draw_->AddText(theme_.small, font, {from_.x, to_.y + theme_.px(4)}, packed(p.text_faint), ("t " + short_number(first_)).c_str());
+    const std::string end = short_number(last_);
+    draw_->AddText(theme_.small, font, {to_.x - theme_.px(7) * static_cast<float>(end.size()), to_.y + theme_.px(4)}, packed(p.text_faint), end.c_str());
+  }
+
+  /// A line through each series, the one looked at before all others in colour; `dots`: at each value.
+  void curves(const std::vector<TimedValue>& values, int looked_at, bool dots) const {
+    std::map<int, ImVec2> before;
+    for (const TimedValue& x : values) {
+      const ImVec2 here = place(x);
+      const Colour colour = x.series == looked_at ? theme_.palette.simplex : theme_.palette.dropped;
+      if (const auto found = before.find(x.series); found != before.end() && here.x >= found->second.x) draw_->AddLine(found->second, here, packed(colour), theme_.px(1.6f));
+      if (dots) draw_->AddCircleFilled(here, theme_.px(2.5f), packed(colour));
+      before[x.series] = here;
+    }
+  }
+
+  /// The length of the momentum, from 0 to its greatest, which stands at the right.
+  void momentum(const std::vector<Event>& events) const {
+    const Colour colour = theme_.palette.text_soft;
+    double most = 0;
+    for (const Event& event : events)
+      if (const auto* e = std::get_if<recorded::State>(&event)) most = std::max(most, e->momentum.norm());
+    if (!(most > 0)) return;
+    for (const auto& [value, y] : {std::pair(most, from_.y), {0.0, to_.y}})
+      draw_->AddText(theme_.small, theme_.small->FontSize * 0.85f, {to_.x + theme_.px(6), y - theme_.px(6)}, packed(colour), short_number(value).c_str());
+    std::optional<ImVec2> before;
+    float drawn = 0;
+    for (const Event& event : events)
+      if (const auto* e = std::get_if<recorded::State>(&event)) {
+        const ImVec2 here{x_of(e->time), to_.y - static_cast<float>(e->momentum.norm() / most) * (to_.y - from_.y)};
+        if (before) drawn = dashed_piece(theme_, *before, here, colour, drawn);
+        before = here;
+      }
+  }
+
+  void cursor(double time) const { draw_->AddLine({x_of(time), from_.y}, {x_of(time), to_.y}, packed(theme_.palette.text.with_alpha(0.6)), 1); }
+
+ private:
+  float x_of(double time) const { return from_.x + static_cast<float>((time - first_) / std::max(last_ - first_, 1e-300)) * (to_.x - from_.x); }
+  float y_of(double value) const { return to_.y - static_cast<float>((value - low_) / (high_ - low_)) * (to_.y - from_.y); }
+
+  const Theme& theme_;
+  ImDrawList* draw_ = ImGui::GetWindowDrawList();
+  ImVec2 at_, from_, to_;
+  double low_, high_, first_, last_;
+};
+
+void soft_note(const Theme& theme, ImVec2 at, const std::string& text) {
+  ImGui::GetWindowDrawList()->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(12), at.y + theme.px(32)}, packed(theme.palette.text_soft), text.c_str());
 }
 
 }  // namespace
@@ -165,78 +324,27 @@ void bounds_plot(App& app, float width, float height) {
   Session& s = app.session;
   const Theme& theme = app.theme;
   const Palette& p = theme.palette;
-  ImDrawList* draw = ImGui::GetWindowDrawList();
   const std::vector<Sample> samples = samples_of(s.recording()), others = s.comparing() ? samples_of(s.other()) : std::vector<Sample>();
-  const auto is_axis = [](const Event& event) { return std::holds_alternative<recorded::AxisTested>(event); };
-  const auto is_gjk = [](const Event& event) { return std::holds_alternative<recorded::GjkBegan>(event); };
-  const std::vector<Event>& events = s.recording().events;
-  if (others.size() <= 1 && std::count_if(events.begin(), events.end(), is_axis) > 1 && std::none_of(events.begin(), events.end(), is_gjk)) return axes_plot(app, width, height);
+  if (others.size() <= 1 && only_axes(s.recording().events)) return axes_plot(app, width, height);
   const ImVec2 at = plot_frame(theme, width, height, "gap between the bounds, log scale");
   if (s.comparing() && width > theme.px(310)) key_entry(theme, at.x + theme.px(232), at.y + theme.px(6), "beside", p.text_soft, false);
   if (samples.size() <= 1 && others.empty()) {
     const std::string why = foreign(s.recording()) ? "This run tells no bounds." : why_no_curve(s.recording());
-    const std::string apart = samples.empty() ? "" : " At its end they are\n" + short_number(samples[0].gap) + " apart.";
-    draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(12), at.y + theme.px(32)}, packed(p.text_soft), (why + apart).c_str());
-    return;
+    return soft_note(theme, at, why + (samples.empty() ? "" : " At its end they are\n" + short_number(samples[0].gap) + " apart."));
   }
   const Settings& settings = s.recording().settings;
-  const double size = std::abs(s.recording().result.signed_distance.value_or(0));
-  const double floor = s.scene().scene.bodies.size() < 2 ? 0 : 2 * rounding_floor(s.scene().scene, settings), tolerance = std::max(settings.tolerance * size, 0.0);
-  double low = floor > 0 ? floor : std::numeric_limits<double>::infinity(), high = floor;  // points know no rounding, their radii do
-  for (const auto* list : {&samples, &others})
-    for (const Sample& x : *list) low = std::min(low, x.gap), high = std::max(high, x.gap);
-  const double log_low = std::floor(std::log10(low)) - 1, log_high = std::max(log_low + 1, std::ceil(std::log10(high)));
-  const ImVec2 from{at.x + theme.px(52), at.y + theme.px(28)}, to{at.x + width - theme.px(14), at.y + height - theme.px(12)};
-  const auto y_of = [&](double log) { return to.y - static_cast<float>((log - log_low) / (log_high - log_low)) * (to.y - from.y); };
+  const double size = std::abs(s.recording().result.signed_distance.value_or(0)), tolerance = std::max(settings.tolerance * size, 0.0);
+  const double floor = s.scene().scene.bodies.size() < 2 ? 0 : 2 * rounding_floor(s.scene().scene, settings);  // points know no rounding, their radii do
   const std::size_t last = std::max(s.count(), s.comparing() ? s.other().events.size() : 0) - 1;
-  const auto x_of = [&](std::size_t step) { return from.x + (last == 0 ? 0 : static_cast<float>(step) / static_cast<float>(last)) * (to.x - from.x); };
-  for (int i = 0; i <= 2; ++i) {
-    const double log = std::round(log_low + (log_high - log_low) * i / 2);
-    char text[16];
-    std::snprintf(text, sizeof text, "1e%+d", static_cast<int>(log));
-    draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(10), y_of(log) - theme.px(7)}, packed(p.text_faint), text);
-    draw->AddLine({from.x, y_of(log)}, {to.x, y_of(log)}, packed(p.field), 1);
-  }
-  const auto level = [&](double value, const char* name, Colour colour, bool below) {
-    if (!(value >= low * 0.999) || value > high) return;
-    const float y = y_of(std::log10(value));
-    for (float x = from.x; x < to.x; x += theme.px(8)) draw->AddLine({x, y}, {std::min(x + theme.px(4), to.x), y}, packed(colour), 1);
-    const ImVec2 place{from.x + theme.px(4), below ? y + 1 : y - theme.px(13)}, extent = theme.small->CalcTextSizeA(theme.small->FontSize * 0.85f, 1e9f, 0, name);
-    draw->AddRectFilled(place, {place.x + extent.x, place.y + extent.y}, packed(p.view));  // no grid line through it
-    draw->AddText(theme.small, theme.small->FontSize * 0.85f, place, packed(colour), name);
-  };
-  level(floor, "rounding floor", p.dropped, true);
-  if (tolerance > 1.5 * floor) level(tolerance, "tolerance", p.support, false);
-  const auto curve = [&](const std::vector<Sample>& all, bool other) {
-    // Where many fall into one pixel, its least and its greatest stand for all.
-    std::vector<Sample> thinned;
-    const std::vector<Sample>* shown = &all;
-    if (static_cast<float>(all.size()) > 2 * (to.x - from.x)) {
-      for (std::size_t i = 0; i < all.size();) {
-        std::size_t least = i, most = i, end = i;
-        for (const float x = x_of(all[i].step); end < all.size() && x_of(all[end].step) < x + 2; ++end) {
-          if (all[end].gap < all[least].gap) least = end;
-          if (all[end].gap > all[most].gap) most = end;
-        }
-        thinned.push_back(all[std::min(least, most)]), thinned.push_back(all[std::max(least, most)]);
-        i = end;
-      }
-      shown = &thinned;
-    }
-    for (std::size_t i = 0; i < shown->size(); ++i) {
-      const std::vector<Sample>& list = *shown;
-      const Colour colour = other ? p.text_soft : list[i].phase == 0 ? p.simplex : p.chosen;
-      const ImVec2 here{x_of(list[i].step), y_of(std::log10(list[i].gap))};
-      if (i > 0 && list[i - 1].phase == list[i].phase && list[i - 1].run == list[i].run) draw->AddLine({x_of(list[i - 1].step), y_of(std::log10(list[i - 1].gap))}, here, packed(colour), theme.px(other ? 1.2f : 2));
-      if (other) draw->AddCircle(here, theme.px(3), packed(colour), 12, theme.px(1.2f));
-      else draw->AddCircleFilled(here, theme.px(2.5f), packed(colour));
-    }
-  };
-  curve(others, true);
-  curve(samples, false);
-  draw->AddLine({x_of(s.step()), from.y}, {x_of(s.step()), to.y}, packed(p.text.with_alpha(0.6)), 1);
+  const GapPlot plot(theme, at, {width, height}, samples, others, last, floor);
+  plot.grid();
+  plot.level(floor, "rounding floor", p.dropped, true);
+  if (tolerance > 1.5 * floor) plot.level(tolerance, "tolerance", p.support, false);
+  plot.curve(others, true);
+  plot.curve(samples, false);
+  plot.cursor(s.step());
   if (Pointed pointed; pointed.over) {
-    for (const Sample& x : samples) pointed.take({x_of(x.step), y_of(std::log10(x.gap))}, x.step, "the bounds are " + short_number(x.gap) + " apart");
+    for (const Sample& x : samples) pointed.take(plot.place(x), x.step, "the bounds are " + short_number(x.gap) + " apart");
     pointed.show(app);
   }
 }
@@ -246,62 +354,22 @@ void motion_plot(App& app, float width, float height) {
   Session& s = app.session;
   const Theme& theme = app.theme;
   const Palette& p = theme.palette;
-  ImDrawList* draw = ImGui::GetWindowDrawList();
   const bool cast = s.scene().scene.query == Query::cast;
   const ImVec2 at = plot_frame(theme, width, height, cast ? "distance over time, each advance" : "over time");
   if (!cast) {
     const float y = at.y + theme.px(6), momentum = key_entry(theme, at.x + theme.px(84), y, "energy", p.simplex, false);
     key_entry(theme, momentum, y, width < theme.px(310) ? "momentum" : "momentum, at the right", p.text_soft, true);
   }
-  struct Point {
-    double time, value;
-    int series;
-    std::size_t step;
-  };
-  std::vector<Point> points;
-  for (std::size_t i = 0; i < s.count(); ++i) {
-    const Event& event = s.recording().events[i];
-    if (const auto* e = std::get_if<recorded::CastAdvanced>(&event); e && cast) points.push_back({e->time, e->distance, e->pair[0] * 1000 + e->pair[1], i});
-    if (const auto* e = std::get_if<recorded::State>(&event); e && !cast) points.push_back({e->time, e->energy, 0, i});
-  }
-  if (points.empty()) {
-    const bool inside = s.recording().result.intersecting && cast;
-    draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(12), at.y + theme.px(32)}, packed(p.text_soft), inside ? "They overlap at the beginning:\nthere is nothing to advance to." : "Nothing has moved.");
-    return;
-  }
-  double low = cast ? 0 : points[0].value, high = points[0].value, first = cast ? 0 : points[0].time, last = cast ? 1 : points[0].time;
-  for (const Point& x : points) low = std::min(low, x.value), high = std::max(high, x.value), last = std::max(last, x.time);
-  if (const double middle = (low + high) / 2; !(high - low > 1e-6 * std::abs(middle))) {  // what stays is a line, not its rounding drawn large
-    const double beside = std::max(1e-12, std::abs(middle) * 1e-3);
-    low = middle - beside, high = middle + beside;
-  }
-  const ImVec2 from{at.x + theme.px(64), at.y + theme.px(28)}, to{at.x + width - theme.px(cast ? 14 : 58), at.y + height - theme.px(22)};
-  const auto place = [&](const Point& x) {
-    return ImVec2{from.x + static_cast<float>((x.time - first) / std::max(last - first, 1e-300)) * (to.x - from.x), to.y - static_cast<float>((x.value - low) / (high - low)) * (to.y - from.y)};
-  };
-  for (const double value : {low, high}) {
-    const float y = place({first, value, 0, 0}).y;
-    draw->AddLine({from.x, y}, {to.x, y}, packed(p.field), 1);
-    draw->AddText(theme.small, theme.small->FontSize * 0.85f, {at.x + theme.px(8), y - theme.px(6)}, packed(p.text_faint), short_number(value).c_str());
-  }
-  draw->AddText(theme.small, theme.small->FontSize * 0.85f, {from.x, to.y + theme.px(4)}, packed(p.text_faint), ("t " + short_number(first)).c_str());
-  const std::string end = short_number(last);
-  draw->AddText(theme.small, theme.small->FontSize * 0.85f, {to.x - theme.px(7) * static_cast<float>(end.size()), to.y + theme.px(4)}, packed(p.text_faint), end.c_str());
-  std::map<int, ImVec2> before;
-  for (const Point& x : points) {
-    const ImVec2 here = place(x);
-    const Colour colour = !cast || x.series == s.frame().pair[0] * 1000 + s.frame().pair[1] ? p.simplex : p.dropped;
-    if (const auto found = before.find(x.series); found != before.end() && here.x >= found->second.x) draw->AddLine(found->second, here, packed(colour), theme.px(1.6f));
-    if (cast) draw->AddCircleFilled(here, theme.px(2.5f), packed(colour));
-    before[x.series] = here;
-  }
-  if (!cast) momentum_curve(app, from, to, first, last);
-  if (s.frame().time) {
-    const float x = place({*s.frame().time, low, 0, 0}).x;
-    draw->AddLine({x, from.y}, {x, to.y}, packed(p.text.with_alpha(0.6)), 1);
-  }
+  const std::vector<TimedValue> values = timed_values(s.recording());
+  if (values.empty())
+    return soft_note(theme, at, s.recording().result.intersecting && cast ? "They overlap at the beginning:\nthere is nothing to advance to." : "Nothing has moved.");
+  const TimePlot plot(theme, at, {width, height}, values, cast);
+  plot.axes();
+  plot.curves(values, cast ? series_of(s.frame().pair) : 0, cast);
+  if (!cast) plot.momentum(s.recording().events);
+  if (s.frame().time) plot.cursor(*s.frame().time);
   if (Pointed pointed; pointed.over) {
-    for (const Point& x : points) pointed.take(place(x), x.step, "time " + short_number(x.time) + (cast ? ", distance " : ", energy ") + short_number(x.value));
+    for (const TimedValue& x : values) pointed.take(plot.place(x), x.step, "time " + short_number(x.time) + (cast ? ", distance " : ", energy ") + short_number(x.value));
     pointed.show(app);
   }
 }
