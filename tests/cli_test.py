@@ -97,6 +97,15 @@ class Program(unittest.TestCase):
                              f"No display here. Written instead: {name}.recording.json and {name}.png\n")
         self.assertEqual(sorted(p.name for p in work.iterdir()), sorted(f"{name}.{kind}" for name in ("cubes", "kept", "2d-deep") for kind in ("recording.json", "png")))
 
+    def test_the_standard_input_as_a_file(self):
+        recording = run("dump", "-", input=self.scene.read_text()).stdout
+        self.assertEqual(recording, run("dump", self.scene).stdout)
+        path = self.write("cubes.recording.json", recording)
+        for arguments in (("check", "-"), ("verify", "-"), ("diff", path, "-"), ("diff", "-", path)):
+            result = run(*arguments, input=recording)
+            self.assertEqual((result.returncode, result.stderr), (0, ""), arguments)
+        self.refused(run("check", "-", input="{"), "/dev/stdin: line 1, column 2: ")
+
     def test_dump_by_gallery_name(self):
         self.assertEqual(run("dump", "two-unit-cubes", cwd=self.path).returncode, 0)
         self.assertEqual(run("dump", "three-unit-cubes", cwd=self.path).stderr, "gjkdbg: three-unit-cubes: is neither a file nor a scene of the gallery, which gjkdbg scenes lists\n")

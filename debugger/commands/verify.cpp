@@ -22,7 +22,7 @@ int run_verify(const std::vector<std::string>& files) {
   int status = exit_done;
   for (const std::string& file : files) {
     try {
-      const Recording recording = read_recording(file);
+      const Recording recording = read_recording(input_path(file));
       if (const auto difference = verify(recording)) {
         std::cout << file << ": differs at ";
         print(*difference, "recorded", "now");
@@ -40,7 +40,7 @@ int run_verify(const std::vector<std::string>& files) {
 }
 
 int run_diff(const std::string& a, const std::string& b) {
-  const Recording left = read_recording(a), right = read_recording(b);
+  const Recording left = read_recording(input_path(a)), right = read_recording(input_path(b));
   const auto difference = first_difference(left, right);
   if (difference) {
     std::cout << "differ at ";
