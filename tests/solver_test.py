@@ -473,6 +473,15 @@ class Solver(unittest.TestCase):
             self.assertIn("cannot be written: ", result.stderr)
             self.assertFalse(mark.exists())
 
+    def test_closed_standard_streams(self):
+        with tempfile.TemporaryDirectory() as folder:
+            out = pathlib.Path(folder, "out.json")
+            for closed, status in (("<&-", 0), ("2>&-", 0), ("<&- 2>&-", 0), (">&-", 2)):
+                command = f"echo noise >&2; exec /usr/bin/python3 {KIT}"
+                result = subprocess.run(["sh", "-c", f'"$0" run box-box-deep --exec "$1" -o "$2" {closed}', PROGRAM, command, out], capture_output=True, text=True)
+                self.assertEqual((result.returncode, result.stdout), (status, "" if status else "no findings: every step holds\n"), closed)
+                self.assertEqual(check_file(json.loads(out.read_text())), (0, []), closed)
+
     def test_control_characters_do_not_reach_the_terminal(self):
         result = subprocess.run([PROGRAM, "run", "box-box-deep", "--exec", """printf '%s\\n' '{"type":"support","direction":[1,0,0],"a\\u001b[31m\\nb":1}'"""], capture_output=True, text=True)
         self.assertIn('"a\\x1b[31m\\x0ab"', result.stdout)
