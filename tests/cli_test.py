@@ -248,6 +248,8 @@ class Program(unittest.TestCase):
         self.refused(run("dump", self.write("bad.json", "{"), "-o", target))
         self.assertEqual(target.read_text(), "before")
         self.refused(run("dump", self.scene, "-o", self.path / "no/such/folder/out.json"), "cannot be written")
+        hours = self.write("hours.json", {**CUBES, "query": "simulate", "steps": 1000000})
+        self.refused(run("dump", hours, "-o", self.path / "no/out.json", timeout=60), "cannot be written")  # before the run
         self.assertEqual(run("dump", self.scene, "-o", target).returncode, 0)
         self.assertEqual(json.loads(target.read_text())["version"], 1)
         self.assertEqual([p.name for p in self.path.iterdir() if ".part" in p.name], [])
