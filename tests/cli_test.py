@@ -494,8 +494,8 @@ class Program(unittest.TestCase):
         one = json.loads((self.path / "one/atlas.json").read_text())
         self.assertEqual({c["method"] for f in one["families"] for c in f["cells"]}, {"Johnson", "Johnson, float"})
         # Drawn, with rows in words and in colours, whatever the folder's name is and however few columns there are.
-        self.assertEqual(run("atlas", "--quick", "--method", "default", "-o", self.path / "it's alone").returncode, 0)
-        drawn = (self.path / "it's alone/atlas.svg").read_text()
+        self.assertEqual(run("atlas", "--quick", "--method", "default", "-o", self.path / "it's\nalone").returncode, 0)
+        drawn = (self.path / "it's\nalone/atlas.svg").read_text()
         for part in "flat plates", "a ball's centre in, on and at the corner of a cube", "signed volumes", "right within rounding":
             self.assertIn(part, drawn.replace("&#39;", "'").replace("&apos;", "'"))
         self.assertGreater(drawn.count("rgb(  0, 158, 115)"), 10)
