@@ -524,6 +524,8 @@ class Program(unittest.TestCase):
         recording = json.loads(run("dump", path, cwd="/").stdout)
         self.assertEqual(len(recording["scene"]["bodies"][0]["shape"]["points"]), 4)
         self.assertEqual(run("verify", self.write("mesh.recording.json", recording)).returncode, 0)
+        self.write("tetra.obj", "v 0 0 0\nv 1\0.5 0 0\n")  # what stands behind a NUL byte would be lost
+        self.refused(run("dump", path), "/bodies/0/shape/mesh: ", "tetra.obj: line 2: a vertex needs three numbers")
 
 
 unittest.main()
