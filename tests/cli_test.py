@@ -26,7 +26,7 @@ CUBES = {
 
 
 def run(*arguments, **options):
-    environment = dict(os.environ)
+    environment = {**os.environ, **options.pop("environment", {})}
     if arguments[0] == "render":
         environment["ASAN_OPTIONS"] = "detect_leaks=0"  # LeakSanitizer crashes when Mesa's threads end under it
     return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, env=environment, **options)
@@ -409,6 +409,14 @@ class Program(unittest.TestCase):
         self.refused(run("render", self.scene, "--all", "--step", 3, "-o", gif), "--step 3")
         self.refused(run("render", self.scene, "-o", ""), "--output")
         self.refused(run("view", "no-such.scene.json"), "no-such.scene.json")  # before a display is asked for
+
+    def test_without_a_gallery(self):
+        for name in ("cubes.png", "cubes.svg", "cubes.gif"):
+            result = run("render", self.scene, *(["--all", "--width", 64, "--height", 64] if name.endswith("gif") else []), "-o", self.path / name, environment={"GJKDBG_GALLERY": "/nope"})
+            self.assertEqual((result.returncode, result.stderr), (0, ""), name)
+        self.refused(run("scenes", environment={"GJKDBG_GALLERY": "/nope"}), "/nope/lessons.json: cannot be read")
+        if "GJKDBG_GALLERY" not in os.environ:
+            self.assertEqual(run("scenes", environment={"GJKDBG_GALLERY": ""}).stdout, run("scenes").stdout)
 
     def test_chart(self):
         folder = self.path / "chart"

@@ -28,7 +28,7 @@ fs::path program_path() {
 }
 
 fs::path gallery_directory() {
-  if (const char* given = std::getenv("GJKDBG_GALLERY")) return given;
+  if (const char* given = std::getenv("GJKDBG_GALLERY"); given && *given) return given;
   std::error_code ignored;
   const fs::path program = program_path();
   const fs::path installed = program.parent_path().parent_path() / "share/gjkdbg/gallery";
