@@ -174,6 +174,15 @@ class Program(unittest.TestCase):
         text = run("dump", self.write("q.json", {**CUBES, "query": "distance"})).stdout
         self.assertNotIn("epa", "".join(text.split('"events"')[1]))
 
+    def test_one_line_whatever_a_file_is_called(self):
+        scene = self.write("a\nb.scene.json", {**CUBES, "expect": {"intersecting": False}})
+        lines = self.write("a\nb.jsonl", json.dumps({**CUBES, "expect": {"intersecting": False}}))
+        for arguments in (("dump", scene, "-o", self.path / "a\nb.json"), ("query", lines)):
+            result = run(*arguments)
+            self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1), result.stderr)
+            self.assertIn("a\\x0ab", result.stderr)
+        self.assertEqual(run("verify", self.path / "a\nb.json").stdout.count("\n"), 1)
+
     def test_wrong_expectations_exit_1(self):
         for expect in ({"intersecting": False}, {"signed_distance": -0.2}, {"normal": [0, 1, 0]}, {"time": 0.5}):
             result = run("dump", self.write("e.json", {**CUBES, "expect": expect}))

@@ -482,6 +482,19 @@ class Solver(unittest.TestCase):
                 self.assertEqual((result.returncode, result.stdout), (status, "" if status else "no findings: every step holds\n"), closed)
                 self.assertEqual(check_file(json.loads(out.read_text())), (0, []), closed)
 
+    def test_a_scene_of_any_name_is_saved_in_the_folder(self):
+        scene = json.loads((ROOT / "recordings/gallery/2d-deep.scene.json").read_text())
+        with tempfile.TemporaryDirectory() as folder:
+            names = ["../up", f"{folder}/absolute", "a/b", "a\nb", "\u00e9" * 150, ".hidden", ".."]
+            files = [pathlib.Path(folder, f"{i}.scene.json") for i in range(len(names))]
+            for file, name in zip(files, names):
+                file.write_text(json.dumps({**scene, "name": name}))
+            result = subprocess.run([PROGRAM, "sweep", *files, "--exec", "true", "-o", f"{folder}/failing/all"], capture_output=True, text=True)
+            self.assertEqual((result.returncode, result.stderr), (1, ""))
+            saved = sorted(os.listdir(f"{folder}/failing/all"))
+            self.assertEqual(saved, sorted(f"{name}.scene.json" for name in ("-.-up", folder.replace("/", "-") + "-absolute", "a-b", "a-b-2", "\u00e9" * 100, "-hidden", "-.")))
+            self.assertEqual((len(os.listdir(f"{folder}/failing")), len(os.listdir(folder))), (1, len(names) + 1))
+
     def test_control_characters_do_not_reach_the_terminal(self):
         result = subprocess.run([PROGRAM, "run", "box-box-deep", "--exec", """printf '%s\\n' '{"type":"support","direction":[1,0,0],"a\\u001b[31m\\nb":1}'"""], capture_output=True, text=True)
         self.assertIn('"a\\x1b[31m\\x0ab"', result.stdout)

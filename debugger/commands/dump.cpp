@@ -23,7 +23,7 @@ struct Dump {
     const Recording recording = record(read, settings);
     kept.write(recording_to_text(recording)), kept.commit();
     const auto missed = missed_expectations(read, recording.result);
-    for (const std::string& what : missed) std::cerr << "gjkdbg: " << file << ": /expect: " << what << "\n";
+    for (const std::string& what : missed) std::cerr << "gjkdbg: " << visible(file) << ": /expect: " << what << "\n";
     return missed.empty() ? exit_done : exit_difference;
   }
 };

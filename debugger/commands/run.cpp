@@ -30,7 +30,7 @@ struct Run {
     const std::vector<Finding> findings = check(recording);
     print_findings(findings, json, output == "-" ? std::cerr : std::cout);
     const std::vector<std::string> missed = missed_by_solver(read, recording);
-    for (const std::string& what : missed) std::cerr << "gjkdbg: " << file << ": /expect: " << what << "\n";
+    for (const std::string& what : missed) std::cerr << "gjkdbg: " << visible(file) << ": /expect: " << what << "\n";
     return findings.empty() && missed.empty() ? exit_done : exit_difference;
   }
 
