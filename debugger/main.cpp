@@ -78,6 +78,7 @@ int main(int argc, char** argv) {
   keep_standard_streams();
   std::signal(SIGPIPE, SIG_IGN);  // a solver or a reader that leaves early must not end the program
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow on is an error like any other
+  std::signal(SIGCHLD, SIG_DFL);  // who started us may ignore it; then nobody is told how a solver ended
   const int status = run(argc, argv);
   // What was printed is done only when it has arrived; or when the other end of a pipe has had enough, as in "gjkdbg scenes | head".
   errno = 0;

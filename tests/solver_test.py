@@ -495,6 +495,11 @@ class Solver(unittest.TestCase):
             self.assertEqual(saved, sorted(f"{name}.scene.json" for name in ("-.-up", folder.replace("/", "-") + "-absolute", "a-b", "a-b-2", "\u00e9" * 100, "-hidden", "-.")))
             self.assertEqual((len(os.listdir(f"{folder}/failing")), len(os.listdir(folder))), (1, len(names) + 1))
 
+    def test_started_by_one_who_ignores_its_children(self):
+        for command, codes in ((f"/usr/bin/python3 {KIT}", []), ("exit 3", ["crash"])):
+            result = subprocess.run([PROGRAM, "run", "box-box-deep", "--exec", command, "--json"], capture_output=True, text=True, preexec_fn=lambda: signal.signal(signal.SIGCHLD, signal.SIG_IGN))
+            self.assertEqual([f["code"] for f in json.loads(result.stdout)["findings"]], codes)
+
     def test_control_characters_do_not_reach_the_terminal(self):
         result = subprocess.run([PROGRAM, "run", "box-box-deep", "--exec", """printf '%s\\n' '{"type":"support","direction":[1,0,0],"a\\u001b[31m\\nb":1}'"""], capture_output=True, text=True)
         self.assertIn('"a\\x1b[31m\\x0ab"', result.stdout)
