@@ -1,4 +1,5 @@
 // gjkdbg: one program, a command each (see debugger/commands/).
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -64,11 +65,20 @@ int run(int argc, char** argv) {
   return status;
 }
 
+/// The next file that is opened takes the number of a standard stream that is closed, as of a daemon's: the errors would be written into the recording, and a solver
+/// would find its standard input closed. What takes its place here can be read (it is empty) and not be written to.
+void keep_standard_streams() {
+  for (int stream = 0; stream <= STDERR_FILENO; ++stream)
+    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_standard_streams();
   std::signal(SIGPIPE, SIG_IGN);  // a solver or a reader that leaves early must not end the program
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow on is an error like any other
+  std::signal(SIGCHLD, SIG_DFL);  // who started us may ignore it; then nobody is told how a solver ended
   const int status = run(argc, argv);
   // What was printed is done only when it has arrived; or when the other end of a pipe has had enough, as in "gjkdbg scenes | head".
   errno = 0;

@@ -10,13 +10,25 @@
 
 namespace gjkdbg {
 
+/// A text as one line: what comes from an input may hold anything, and control characters are written as \xNN.
+inline std::string visible(const std::string& text) {
+  constexpr const char* digits = "0123456789abcdef";
+  std::string line;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code >= 0x20 && code != 0x7f) line += c;
+    else line += {'\\', 'x', digits[code / 16], digits[code % 16]};
+  }
+  return line;
+}
+
 /// What is wrong with an input, and where. `where` is a JSON pointer ("/bodies/0/shape/radius"), a line
 /// ("line 12"), or empty when the whole input is meant; `code` is a short kebab-case word that tests and
 /// programs can rely on; `message` is one line of English without a final full stop.
 class Error : public std::runtime_error {
  public:
   Error(std::string code, const std::string& message, const std::string& where = {})
-      : std::runtime_error(one_line(message)), code_(std::move(code)), message_(one_line(message)), where_(one_line(where)) {}
+      : std::runtime_error(visible(message)), code_(std::move(code)), message_(visible(message)), where_(visible(where)) {}
 
   const std::string& code() const { return code_; }
   const std::string& message() const { return message_; }
@@ -32,18 +44,6 @@ class Error : public std::runtime_error {
   std::string line() const { return where_.empty() ? message_ : where_ + ": " + message_; }
 
  private:
-  /// Names from the input may hold anything: control characters are written as \xNN.
-  static std::string one_line(const std::string& text) {
-    constexpr const char* digits = "0123456789abcdef";
-    std::string line;
-    for (const char c : text) {
-      const auto code = static_cast<unsigned char>(c);
-      if (code >= 0x20 && code != 0x7f) line += c;
-      else line += {'\\', 'x', digits[code / 16], digits[code % 16]};
-    }
-    return line;
-  }
-
   std::string code_, message_, where_;
 };
 

@@ -27,7 +27,7 @@ AnyVector read_vertex(std::istream& words, const std::string& place) {
     words >> word;
     char* end = nullptr;
     p[i] = std::strtod(word.c_str(), &end);
-    if (word.empty() || *end != '\0') throw Error("bad-mesh", "a vertex needs three numbers", place);
+    if (word.empty() || end != word.data() + word.size()) throw Error("bad-mesh", "a vertex needs three numbers", place);
     if (!std::isfinite(p[i])) throw Error("non-finite", "a vertex must be finite", place);
     if (std::abs(p[i]) > largest_length) throw Error("too-large", "a vertex must not exceed 1e60 in magnitude", place);
   }

@@ -26,7 +26,7 @@ CUBES = {
 
 
 def run(*arguments, **options):
-    environment = dict(os.environ)
+    environment = {**os.environ, **options.pop("environment", {})}
     if arguments[0] == "render":
         environment["ASAN_OPTIONS"] = "detect_leaks=0"  # LeakSanitizer crashes when Mesa's threads end under it
     return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, env=environment, **options)
@@ -97,6 +97,15 @@ class Program(unittest.TestCase):
                              f"No display here. Written instead: {name}.recording.json and {name}.png\n")
         self.assertEqual(sorted(p.name for p in work.iterdir()), sorted(f"{name}.{kind}" for name in ("cubes", "kept", "2d-deep") for kind in ("recording.json", "png")))
 
+    def test_the_standard_input_as_a_file(self):
+        recording = run("dump", "-", input=self.scene.read_text()).stdout
+        self.assertEqual(recording, run("dump", self.scene).stdout)
+        path = self.write("cubes.recording.json", recording)
+        for arguments in (("check", "-"), ("verify", "-"), ("diff", path, "-"), ("diff", "-", path)):
+            result = run(*arguments, input=recording)
+            self.assertEqual((result.returncode, result.stderr), (0, ""), arguments)
+        self.refused(run("check", "-", input="{"), "/dev/stdin: line 1, column 2: ")
+
     def test_dump_by_gallery_name(self):
         self.assertEqual(run("dump", "two-unit-cubes", cwd=self.path).returncode, 0)
         self.assertEqual(run("dump", "three-unit-cubes", cwd=self.path).stderr, "gjkdbg: three-unit-cubes: is neither a file nor a scene of the gallery, which gjkdbg scenes lists\n")
@@ -164,6 +173,15 @@ class Program(unittest.TestCase):
     def test_distance_never_runs_epa(self):
         text = run("dump", self.write("q.json", {**CUBES, "query": "distance"})).stdout
         self.assertNotIn("epa", "".join(text.split('"events"')[1]))
+
+    def test_one_line_whatever_a_file_is_called(self):
+        scene = self.write("a\nb.scene.json", {**CUBES, "expect": {"intersecting": False}})
+        lines = self.write("a\nb.jsonl", json.dumps({**CUBES, "expect": {"intersecting": False}}))
+        for arguments in (("dump", scene, "-o", self.path / "a\nb.json"), ("query", lines)):
+            result = run(*arguments)
+            self.assertEqual((result.returncode, result.stderr.count("\n")), (1, 1), result.stderr)
+            self.assertIn("a\\x0ab", result.stderr)
+        self.assertEqual(run("verify", self.path / "a\nb.json").stdout.count("\n"), 1)
 
     def test_wrong_expectations_exit_1(self):
         for expect in ({"intersecting": False}, {"signed_distance": -0.2}, {"normal": [0, 1, 0]}, {"time": 0.5}):
@@ -239,6 +257,8 @@ class Program(unittest.TestCase):
         self.refused(run("dump", self.write("bad.json", "{"), "-o", target))
         self.assertEqual(target.read_text(), "before")
         self.refused(run("dump", self.scene, "-o", self.path / "no/such/folder/out.json"), "cannot be written")
+        hours = self.write("hours.json", {**CUBES, "query": "simulate", "steps": 1000000})
+        self.refused(run("dump", hours, "-o", self.path / "no/out.json", timeout=60), "cannot be written")  # before the run
         self.assertEqual(run("dump", self.scene, "-o", target).returncode, 0)
         self.assertEqual(json.loads(target.read_text())["version"], 1)
         self.assertEqual([p.name for p in self.path.iterdir() if ".part" in p.name], [])
@@ -399,6 +419,14 @@ class Program(unittest.TestCase):
         self.refused(run("render", self.scene, "-o", ""), "--output")
         self.refused(run("view", "no-such.scene.json"), "no-such.scene.json")  # before a display is asked for
 
+    def test_without_a_gallery(self):
+        for name in ("cubes.png", "cubes.svg", "cubes.gif"):
+            result = run("render", self.scene, *(["--all", "--width", 64, "--height", 64] if name.endswith("gif") else []), "-o", self.path / name, environment={"GJKDBG_GALLERY": "/nope"})
+            self.assertEqual((result.returncode, result.stderr), (0, ""), name)
+        self.refused(run("scenes", environment={"GJKDBG_GALLERY": "/nope"}), "/nope/lessons.json: cannot be read")
+        if "GJKDBG_GALLERY" not in os.environ:
+            self.assertEqual(run("scenes", environment={"GJKDBG_GALLERY": ""}).stdout, run("scenes").stdout)
+
     def test_chart(self):
         folder = self.path / "chart"
         result = run("chart", "--quick", "-o", folder)
@@ -483,8 +511,8 @@ class Program(unittest.TestCase):
         one = json.loads((self.path / "one/atlas.json").read_text())
         self.assertEqual({c["method"] for f in one["families"] for c in f["cells"]}, {"Johnson", "Johnson, float"})
         # Drawn, with rows in words and in colours, whatever the folder's name is and however few columns there are.
-        self.assertEqual(run("atlas", "--quick", "--method", "default", "-o", self.path / "it's alone").returncode, 0)
-        drawn = (self.path / "it's alone/atlas.svg").read_text()
+        self.assertEqual(run("atlas", "--quick", "--method", "default", "-o", self.path / "it's\nalone").returncode, 0)
+        drawn = (self.path / "it's\nalone/atlas.svg").read_text()
         for part in "flat plates", "a ball's centre in, on and at the corner of a cube", "signed volumes", "right within rounding":
             self.assertIn(part, drawn.replace("&#39;", "'").replace("&apos;", "'"))
         self.assertGreater(drawn.count("rgb(  0, 158, 115)"), 10)
@@ -513,6 +541,8 @@ class Program(unittest.TestCase):
         recording = json.loads(run("dump", path, cwd="/").stdout)
         self.assertEqual(len(recording["scene"]["bodies"][0]["shape"]["points"]), 4)
         self.assertEqual(run("verify", self.write("mesh.recording.json", recording)).returncode, 0)
+        self.write("tetra.obj", "v 0 0 0\nv 1\0.5 0 0\n")  # what stands behind a NUL byte would be lost
+        self.refused(run("dump", path), "/bodies/0/shape/mesh: ", "tetra.obj: line 2: a vertex needs three numbers")
 
 
 unittest.main()

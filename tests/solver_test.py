@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -439,6 +440,76 @@ class Solver(unittest.TestCase):
             self.assertEqual([f["code"] for f in findings], ["timeout"])
             time.sleep(3.5)
             self.assertFalse(mark.exists())
+
+    def test_whoever_ends_us_ends_the_solver(self):
+        for command in (["run", "box-box-deep", "--timeout", "60"], ["sweep", "--dimension", "1", "--timeout", "60"]):
+            for end in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+                with tempfile.TemporaryDirectory() as folder:
+                    number = pathlib.Path(folder, "pid")
+                    extra = ["-o", f"{folder}/out.json"] if command[0] == "run" else []
+                    program = subprocess.Popen([PROGRAM, *command, *extra, "--exec", f"echo $$ > {number}.part; mv {number}.part {number}; exec sleep 60"],
+                                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=lambda: signal.signal(end, signal.SIG_DFL))
+                    for _ in range(500):
+                        if number.exists():
+                            break
+                        time.sleep(0.02)
+                    solver = int(number.read_text())
+                    program.send_signal(end)
+                    self.assertEqual(program.wait(20), -end)
+                    self.assertEqual(os.listdir(folder), ["pid"])  # and half a recording is none
+                    for _ in range(100):  # until whoever is its parent now has seen it end
+                        if not pathlib.Path(f"/proc/{solver}/stat").exists() or pathlib.Path(f"/proc/{solver}/stat").read_text().split()[2] == "Z":
+                            break
+                        time.sleep(0.02)
+                    else:
+                        os.kill(solver, signal.SIGKILL)
+                        self.fail(f"{command[0]} was ended by {end}, and its solver goes on")
+
+    def test_where_nothing_can_be_written_nothing_is_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mark = pathlib.Path(folder, "ran")
+            result = subprocess.run([PROGRAM, "run", "box-box-deep", "--exec", f"touch {mark}", "-o", f"{folder}/no/out.json"], capture_output=True, text=True)
+            self.assertEqual((result.returncode, result.stdout, result.stderr.count("\n")), (2, "", 1))
+            self.assertIn("cannot be written: ", result.stderr)
+            self.assertFalse(mark.exists())
+
+    def test_closed_standard_streams(self):
+        with tempfile.TemporaryDirectory() as folder:
+            out = pathlib.Path(folder, "out.json")
+            for closed, status in (("<&-", 0), ("2>&-", 0), ("<&- 2>&-", 0), (">&-", 2)):
+                command = f"echo noise >&2; exec /usr/bin/python3 {KIT}"
+                result = subprocess.run(["sh", "-c", f'"$0" run box-box-deep --exec "$1" -o "$2" {closed}', PROGRAM, command, out], capture_output=True, text=True)
+                self.assertEqual((result.returncode, result.stdout), (status, "" if status else "no findings: every step holds\n"), closed)
+                self.assertEqual(check_file(json.loads(out.read_text())), (0, []), closed)
+
+    def test_a_scene_of_any_name_is_saved_in_the_folder(self):
+        scene = json.loads((ROOT / "recordings/gallery/2d-deep.scene.json").read_text())
+        with tempfile.TemporaryDirectory() as folder:
+            names = ["../up", f"{folder}/absolute", "a/b", "a\nb", "\u00e9" * 150, ".hidden", ".."]
+            files = [pathlib.Path(folder, f"{i}.scene.json") for i in range(len(names))]
+            for file, name in zip(files, names):
+                file.write_text(json.dumps({**scene, "name": name}))
+            result = subprocess.run([PROGRAM, "sweep", *files, "--exec", "true", "-o", f"{folder}/failing/all"], capture_output=True, text=True)
+            self.assertEqual((result.returncode, result.stderr), (1, ""))
+            saved = sorted(os.listdir(f"{folder}/failing/all"))
+            self.assertEqual(saved, sorted(f"{name}.scene.json" for name in ("-.-up", folder.replace("/", "-") + "-absolute", "a-b", "a-b-2", "\u00e9" * 100, "-hidden", "-.")))
+            self.assertEqual((len(os.listdir(f"{folder}/failing")), len(os.listdir(folder))), (1, len(names) + 1))
+
+    def test_started_by_one_who_ignores_its_children(self):
+        for command, codes in ((f"/usr/bin/python3 {KIT}", []), ("exit 3", ["crash"])):
+            result = subprocess.run([PROGRAM, "run", "box-box-deep", "--exec", command, "--json"], capture_output=True, text=True, preexec_fn=lambda: signal.signal(signal.SIGCHLD, signal.SIG_IGN))
+            self.assertEqual([f["code"] for f in json.loads(result.stdout)["findings"]], codes)
+
+    def test_control_characters_do_not_reach_the_terminal(self):
+        result = subprocess.run([PROGRAM, "run", "box-box-deep", "--exec", """printf '%s\\n' '{"type":"support","direction":[1,0,0],"a\\u001b[31m\\nb":1}'"""], capture_output=True, text=True)
+        self.assertIn('"a\\x1b[31m\\x0ab"', result.stdout)
+        self.assertNotIn("\x1b", result.stdout)
+
+    def test_numbers_that_are_none(self):
+        for word in ("NaN", "-nan", "inf", "-Infinity", "null", '"NaN"', '"Infinity"', '"-Infinity"'):
+            lines = "".join(f" '{line}'" for line in ('{"type":"support","direction":[%s,0,0],"note":"C:\\\\"}' % word, '{"type":"result","intersecting":true,"signed_distance":%s,"normal":[%s,0,0]}' % (word.replace("null", "NaN"), word)))
+            codes = [f["code"] for f in self.run_kit("box-box-deep", f"cat >/dev/null & printf '%s\\n'{lines}")]
+            self.assertEqual(codes[:3], ["unknown-field", "non-finite-direction", "bad-message"], word)
 
     def test_sweep_shows_the_same_error_output_once(self):
         with tempfile.TemporaryDirectory() as folder:

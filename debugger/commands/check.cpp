@@ -17,7 +17,7 @@ void print_findings(const std::vector<Finding>& findings, bool json, std::ostrea
     return;
   }
   for (const Finding& f : findings)
-    out << "step " << f.step << ": " << (f.severity == Finding::Severity::error ? "error" : "warning") << ": " << f.code << "\n  " << f.message << "\n";
+    out << "step " << f.step << ": " << (f.severity == Finding::Severity::error ? "error" : "warning") << ": " << f.code << "\n  " << visible(f.message) << "\n";
   if (findings.empty()) out << "no findings: every step holds\n";
 }
 
@@ -28,7 +28,7 @@ struct Check {
   bool json = false;
 
   int run() const {
-    const std::vector<Finding> findings = check(read_recording(file));
+    const std::vector<Finding> findings = check(read_recording(input_path(file)));
     print_findings(findings, json, std::cout);
     return findings.empty() ? exit_done : exit_difference;
   }

@@ -18,10 +18,12 @@ struct Dump {
   int run() const {
     const std::string file = scene_path(scene).string();
     SceneFile read = read_scene(file);
-    const Recording recording = record(read, flags.resolve(read, file));
-    write_output(output, recording_to_text(recording));
+    const Settings settings = flags.resolve(read, file);
+    OutputFile kept(output);  // a place that cannot be written is told before a long run, not after it
+    const Recording recording = record(read, settings);
+    kept.write(recording_to_text(recording)), kept.commit();
     const auto missed = missed_expectations(read, recording.result);
-    for (const std::string& what : missed) std::cerr << "gjkdbg: " << file << ": /expect: " << what << "\n";
+    for (const std::string& what : missed) std::cerr << "gjkdbg: " << visible(file) << ": /expect: " << what << "\n";
     return missed.empty() ? exit_done : exit_difference;
   }
 };

@@ -28,7 +28,7 @@ fs::path program_path() {
 }
 
 fs::path gallery_directory() {
-  if (const char* given = std::getenv("GJKDBG_GALLERY")) return given;
+  if (const char* given = std::getenv("GJKDBG_GALLERY"); given && *given) return given;
   std::error_code ignored;
   const fs::path program = program_path();
   const fs::path installed = program.parent_path().parent_path() / "share/gjkdbg/gallery";
@@ -38,12 +38,15 @@ fs::path gallery_directory() {
 
 fs::path scene_path(const std::string& argument) {
   std::error_code ignored;
+  if (argument == "-") return input_path(argument);
   if (fs::exists(argument, ignored) || argument.find('/') != std::string::npos) return argument;
   const fs::path in_gallery = gallery_directory() / (argument + ".scene.json");
   if (fs::exists(in_gallery, ignored)) return in_gallery;
   if (argument.find('.') == std::string::npos) throw Error("missing-file", "is neither a file nor a scene of the gallery, which gjkdbg scenes lists", argument);
   return argument;
 }
+
+std::string input_path(const std::string& argument) { return argument == "-" ? "/dev/stdin" : argument; }
 
 std::string one_line(std::string text) {
   std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');

@@ -29,6 +29,9 @@ std::filesystem::path scene_path(const std::string& argument);
 /// What is printed of an error: one line, whatever names the input brought along.
 std::string one_line(std::string text);
 
+/// "-" is the standard input, as it is for query.
+std::string input_path(const std::string& argument);
+
 /// Of options that name a file, a folder or a program: not empty.
 CLI::Validator named();
 /// Of options that are a number: from `low` to `high`, and no NaN.

@@ -47,13 +47,13 @@ OutputFile::OutputFile(const std::string& path) {
     for (int links = 0; links < 40 && std::filesystem::is_symlink(target_, broken); ++links) target_ = target_.parent_path() / std::filesystem::read_symlink(target_, broken);
     temporary_ = target_;
     temporary_ += ".part" + std::to_string(getpid());
+    remove_when_interrupted(temporary_.string());
   }
   file_ = std::fopen((special ? target_ : temporary_).c_str(), "wb");
   if (!file_) {
-    temporary_.clear();
+    temporary_.clear(), part[0] = 0;
     fail();
   }
-  if (!temporary_.empty()) remove_when_interrupted(temporary_.string());
 }
 
 OutputFile::~OutputFile() {

@@ -148,9 +148,9 @@ class Queries {
   /// Of several bad lines the first: file, place, reason; then how many there are.
   std::string summary() const {
     const std::string all = std::to_string(line_) + (line_ == 1 ? " line" : " lines");
-    if (errors_ + missed_ == 0) return input + ": " + all;
+    if (errors_ + missed_ == 0) return visible(input) + ": " + all;
     const std::string first = errors_ > 0 ? one_line(first_error_) : "line " + std::to_string(first_missed_) + ": not as expected";
-    return input + ": " + first + " (of " + all + " " + std::to_string(errors_) + " bad, " + std::to_string(missed_) + " not as expected)";
+    return visible(input) + ": " + first + " (of " + all + " " + std::to_string(errors_) + " bad, " + std::to_string(missed_) + " not as expected)";
   }
 
   std::filesystem::path directory_;

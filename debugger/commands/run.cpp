@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "debugger/commands/commands.h"
 #include "debugger/commands/findings.h"
@@ -22,12 +23,14 @@ struct Run {
   int run() const {
     const std::string file = scene_path(scene).string();
     const SceneFile read = read_scene(file);
+    std::optional<OutputFile> kept;
+    if (!output.empty()) kept.emplace(output);  // a place that cannot be written is told before the run, not after it
     const Recording recording = solved(read, file);
-    if (!output.empty()) write_output(output, recording_to_text(recording));
+    if (kept) kept->write(recording_to_text(recording)), kept->commit();
     const std::vector<Finding> findings = check(recording);
     print_findings(findings, json, output == "-" ? std::cerr : std::cout);
     const std::vector<std::string> missed = missed_by_solver(read, recording);
-    for (const std::string& what : missed) std::cerr << "gjkdbg: " << file << ": /expect: " << what << "\n";
+    for (const std::string& what : missed) std::cerr << "gjkdbg: " << visible(file) << ": /expect: " << what << "\n";
     return findings.empty() && missed.empty() ? exit_done : exit_difference;
   }
 
@@ -54,7 +57,7 @@ void add_run(CLI::App& app, Status& status) {
   command->add_option("-o,--output", options->output, "file for the recording")->check(named());
   command->add_flag("--json", options->json, "findings as JSON");
   command->add_option("--max-supports,--max_supports", options->limits.max_supports, "support queries (1000)")->check(between(1, 10000000));
-  command->add_option("--timeout", options->limits.timeout, "seconds (10)")->check(between(0.01, 86400.0));
+  command->add_option("--timeout", options->limits.timeout, "seconds for the whole run (10)")->check(between(0.01, 86400.0));
   options->flags.add_to(*command);
   command->callback([options, &status] { status = options->run(); });
 }

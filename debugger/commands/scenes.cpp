@@ -15,7 +15,7 @@ int run_scenes() {
   for (const Lesson& lesson : gallery.lessons) {
     for (const std::string& name : lesson.scenes) {
       const Scene scene = read_scene(gallery.file(name)).scene;
-      std::cout << std::left << std::setw(38) << name << " " << scene.dimension << "D  " << std::setw(12) << word_of(scene.query) << std::setw(28) << lesson.title << " " << scene.description << "\n";
+      std::cout << std::left << std::setw(38) << name << " " << scene.dimension << "D  " << std::setw(12) << word_of(scene.query) << std::setw(28) << lesson.title << " " << one_line(scene.description) << "\n";
     }
   }
   return exit_done;

@@ -129,9 +129,9 @@ struct Sweep {
       code ? ++failed : ++passed;
       if (!code) return void(errors.take());
       ++codes[*code];
-      std::cout << std::left << std::setw(36) << scene.scene.name << " " << *code;
+      std::cout << std::left << std::setw(36) << visible(scene.scene.name) << " " << *code;
       const std::string said = errors.take();
-      if (!output.empty()) std::cout << "  " << save(scene, *code);
+      if (!output.empty()) std::cout << "  " << visible(save(scene, *code));
       std::cout << std::endl;
       errors.take();
       errors.show(said);
@@ -208,10 +208,20 @@ struct Sweep {
       if (!smaller) break;
     }
     make_folder(output);
-    const int same = ++saved_[scene.scene.name];  // scenes of different folders may have one name
-    const std::string file = (std::filesystem::path(output) / (scene.scene.name + (same > 1 ? "-" + std::to_string(same) : "") + ".scene.json")).string();
+    const std::string name = as_file_name(scene.scene.name);
+    const int same = ++saved_[name];  // scenes of different folders may have one name
+    const std::string file = (std::filesystem::path(output) / (name + (same > 1 ? "-" + std::to_string(same) : "") + ".scene.json")).string();
     write_output(file, pretty_json(scene_to_json(scene)) + "\n");
     return file;
+  }
+
+  /// A scene may be called anything, "../a" too; its file stays in the folder. Not in the middle of a character: the bytes that go on in one are 10xxxxxx.
+  static std::string as_file_name(std::string name) {
+    std::replace_if(name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == 0x7f || c == '/' || c == '\\'; }, '-');
+    if (name.starts_with('.')) name.front() = '-';
+    std::size_t length = std::min<std::size_t>(name.size(), 200);
+    while (length > 0 && length < name.size() && (static_cast<unsigned char>(name[length]) & 0xC0) == 0x80) --length;
+    return name.substr(0, length);
   }
 
   static std::vector<SceneFile> simpler(const SceneFile& scene) {

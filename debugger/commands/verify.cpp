@@ -14,7 +14,7 @@ namespace {
 void print(const Difference& d, const std::string& left_name, const std::string& right_name) {
   std::cout << d.what;
   for (std::size_t i = 0; i < d.fields.size(); ++i) std::cout << (i == 0 ? ": " : ", ") << d.fields[i];
-  std::cout << "\n  " << left_name << ": " << (d.left.empty() ? "(has ended)" : d.left) << "\n  " << right_name << ": "
+  std::cout << "\n  " << visible(left_name) << ": " << (d.left.empty() ? "(has ended)" : d.left) << "\n  " << visible(right_name) << ": "
             << (d.right.empty() ? "(has ended)" : d.right) << "\n";
 }
 
@@ -22,14 +22,14 @@ int run_verify(const std::vector<std::string>& files) {
   int status = exit_done;
   for (const std::string& file : files) {
     try {
-      const Recording recording = read_recording(file);
+      const Recording recording = read_recording(input_path(file));
       if (const auto difference = verify(recording)) {
-        std::cout << file << ": differs at ";
+        std::cout << visible(file) << ": differs at ";
         print(*difference, "recorded", "now");
-        if (foreign(recording)) std::cout << "  It was made by " << recording.generator << ", and this is what our own method does: `check` judges the recording itself.\n";
+        if (foreign(recording)) std::cout << "  It was made by " << visible(recording.generator) << ", and this is what our own method does: `check` judges the recording itself.\n";
         if (status == exit_done) status = exit_difference;
       } else {
-        std::cout << file << ": same, " << recording.events.size() << " events\n";
+        std::cout << visible(file) << ": same, " << recording.events.size() << " events\n";
       }
     } catch (const Error& e) {
       std::cerr << "gjkdbg: " << one_line(e.line()) << "\n";
@@ -40,7 +40,7 @@ int run_verify(const std::vector<std::string>& files) {
 }
 
 int run_diff(const std::string& a, const std::string& b) {
-  const Recording left = read_recording(a), right = read_recording(b);
+  const Recording left = read_recording(input_path(a)), right = read_recording(input_path(b));
   const auto difference = first_difference(left, right);
   if (difference) {
     std::cout << "differ at ";

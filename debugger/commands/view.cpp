@@ -129,6 +129,14 @@ std::string save(const App& app, const std::string& file) {
   }
 }
 
+/// A file that is named can be shown where there is no gallery, as where only the program was copied to.
+Gallery gallery_beside(bool named) {
+  const std::filesystem::path directory = gallery_directory();
+  std::error_code ignored;
+  if (named && !std::filesystem::exists(directory / "lessons.json", ignored)) return {directory, {}};
+  return read_gallery(directory);
+}
+
 /// `gjkdbg chart --quick` or `atlas --quick` beside the window, for its panel.
 class Measuring {
  public:
@@ -209,7 +217,7 @@ struct View {
       scene.method.name = MethodName::gjk;
       options.refresh = SolverWatch(std::move(scene), command);
     }
-    run_window(options, read_gallery(gallery_directory()));
+    run_window(options, gallery_beside(!file.empty()));
     return exit_done;
   }
 };
@@ -229,7 +237,7 @@ struct Render {
     std::optional<TemporaryFolder> folder;
     if (flags.given()) path = by_flags(path, folder.emplace().path());
     if (output.ends_with(".svg")) return svg(path);
-    Headless host(width, height, scale, read_gallery(gallery_directory()));
+    Headless host(width, height, scale, gallery_beside(true));
     App& app = host.app();
     app.preferences.dark = !light;
     apply_colours(app.theme, !light);

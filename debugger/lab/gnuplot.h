@@ -5,10 +5,10 @@
 
 namespace gjkdbg {
 
-/// As gnuplot reads it back, whatever stands in it.
+/// As gnuplot reads it back, whatever stands in it. A command is a line, so the end of one is a text of its own.
 inline std::string quoted_for_gnuplot(const std::string& text) {
   std::string out = "'";
-  for (const char c : text) out += c == '\'' ? "''" : std::string(1, c);
+  for (const char c : text) out += c == '\'' ? "''" : c == '\n' ? "'.\"\\n\".'" : std::string(1, c);
   return out + "'";
 }
 

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <thread>
@@ -31,6 +32,35 @@ void open_pipe(int ends[2]) {
   for (int i = 0; i < 2; ++i) fcntl(ends[i], F_SETFD, FD_CLOEXEC);
 }
 
+constexpr int interrupts[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
+
+std::atomic<pid_t> running_group{0};  ///< for the handler; a program runs one solver at a time
+struct sigaction before_solver[std::size(interrupts)];
+
+/// The solver's group is its own, so Ctrl-C reaches only us. Whoever ends us ends the solver, which might otherwise run in its loop for ever;
+/// then the signal does what it did before.
+extern "C" void end_solver(int signal) {
+  if (const pid_t group = running_group.exchange(0); group > 0) kill(-group, SIGKILL);
+  for (std::size_t i = 0; i < std::size(interrupts); ++i)
+    if (interrupts[i] == signal) sigaction(signal, &before_solver[i], nullptr);
+  raise(signal);
+}
+
+void end_when_interrupted(pid_t group) {
+  running_group = group;
+  struct sigaction ending = {};
+  ending.sa_handler = end_solver;
+  for (std::size_t i = 0; i < std::size(interrupts); ++i) {
+    sigaction(interrupts[i], nullptr, &before_solver[i]);
+    if (before_solver[i].sa_handler != SIG_IGN) sigaction(interrupts[i], &ending, nullptr);
+  }
+}
+
+void no_longer_interruptible() {
+  for (std::size_t i = 0; i < std::size(interrupts); ++i) sigaction(interrupts[i], &before_solver[i], nullptr);
+  running_group = 0;
+}
+
 [[noreturn]] void run_child(const std::string& command, const int in[2], const int out[2], int errors) {
   setpgid(0, 0);
   dup2(in[0], STDIN_FILENO);
@@ -51,6 +81,7 @@ SolverProcess::SolverProcess(const std::string& command, int errors) {
   close(in[0]), close(out[1]);
   if (pid_ < 0) cannot_start();
   setpgid(pid_, pid_);  // both sides do: whoever comes first
+  end_when_interrupted(pid_);
   to_ = in[1], from_ = out[0];
   fcntl(to_, F_SETFL, O_NONBLOCK);
   fcntl(from_, F_SETFL, O_NONBLOCK);
@@ -59,6 +90,7 @@ SolverProcess::SolverProcess(const std::string& command, int errors) {
 SolverProcess::~SolverProcess() {
   close_input();
   if (from_ >= 0) close(from_);
+  no_longer_interruptible();
   if (pid_ <= 0) return;
   kill(-pid_, SIGKILL);
   int status = 0;
@@ -116,6 +148,7 @@ std::optional<std::string> SolverProcess::wait(Deadline deadline) {
     int status = 0;
     const pid_t done = waitpid(pid_, &status, WNOHANG);
     if (done == pid_) {
+      running_group = 0;     // its number may be another's from now on
       kill(-pid_, SIGKILL);  // what it may have left running
       pid_ = -1;
       if (WIFSIGNALED(status)) return "signal " + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")";

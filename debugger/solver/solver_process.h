@@ -14,7 +14,7 @@ class SolverProcess {
  public:
   /// Starts `command` by /bin/sh in a process group of its own; its standard error goes to the descriptor `errors`. Throws Error when that fails.
   SolverProcess(const std::string& command, int errors);
-  /// Kills the whole group it started, and nothing else.
+  /// Kills the whole group it started, and nothing else. So does a signal that ends us while it runs (Ctrl-C).
   ~SolverProcess();
   SolverProcess(const SolverProcess&) = delete;
   SolverProcess& operator=(const SolverProcess&) = delete;

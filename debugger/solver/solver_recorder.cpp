@@ -19,9 +19,10 @@ constexpr const char* not_finite = "not finite";  ///< what a message has in pla
 /// Numbers that JSON has no word for (NaN, Infinity, as Python and others write them) become a text, outside strings.
 std::string without_nan(const std::string& line) {
   std::string out;
-  bool in_string = false;
+  bool in_string = false, escaped = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"' && (i == 0 || line[i - 1] != '\\')) in_string = !in_string;
+    if (line[i] == '"' && !escaped) in_string = !in_string;
+    escaped = line[i] == '\\' && !escaped;  // of two backslashes the second is escaped, and escapes nothing
     bool replaced = false;
     for (const std::string word : {"-Infinity", "Infinity", "-NaN", "NaN", "-nan", "nan", "-inf", "inf"})
       if (!in_string && line.compare(i, word.size(), word) == 0) {
@@ -35,11 +36,14 @@ std::string without_nan(const std::string& line) {
   return out;
 }
 
+/// Whether a value stands for NaN or an infinity: as above, or quoted, as C#'s Newtonsoft.Json writes them.
+bool is_not_finite(const Json& json) { return json == not_finite || json == "NaN" || json == "Infinity" || json == "-Infinity"; }
+
 /// A vector whose components may be null or otherwise not finite.
 AnyVector loose_vector(const Json& json, const Place& place, int dimension) {
   if (!json.is_array() || json.size() != static_cast<std::size_t>(dimension)) return read_vector(json, place, dimension);
   AnyVector v(dimension);
-  for (std::size_t i = 0; i < json.size(); ++i) v[static_cast<Eigen::Index>(i)] = json[i].is_null() || json[i] == not_finite ? nan : read_number(json[i], Place(place, i));
+  for (std::size_t i = 0; i < json.size(); ++i) v[static_cast<Eigen::Index>(i)] = json[i].is_null() || is_not_finite(json[i]) ? nan : read_number(json[i], Place(place, i));
   return v;
 }
 
@@ -227,7 +231,7 @@ void SolverRecorder::result(const Json& json) {
     const AnyVector v = loose_vector(*x, o.at(key), dimension_);
     return finite(key, v.allFinite()) ? std::optional(v) : std::nullopt;
   };
-  if (const Json* x = given("signed_distance"); x && finite("signed_distance", *x != not_finite)) r.signed_distance = read_number(*x, o.at("signed_distance"));
+  if (const Json* x = given("signed_distance"); x && finite("signed_distance", !is_not_finite(*x))) r.signed_distance = read_number(*x, o.at("signed_distance"));
   r.normal = point("normal"), r.witness_a = point("witness_a"), r.witness_b = point("witness_b");
   if (recording_.scene.scene.query == Query::intersect) r.signed_distance.reset(), r.normal.reset(), r.witness_a.reset(), r.witness_b.reset();  // not asked for: neither kept nor judged
   const bool measured = r.signed_distance.has_value();
