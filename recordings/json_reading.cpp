@@ -172,6 +172,7 @@ bool parse_fast(std::string_view text, Json& json) {
 Json parse_carefully(std::string_view text, std::size_t first_line = 1) {
   if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos)  // which the parser takes for the end
     throw Error("bad-json", "is no JSON: a NUL byte", line_and_column(text, nul + 1, first_line));
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) throw Error("bad-json", "is no JSON: there is nothing in it");
   try {
     JsonBuilder builder(text, first_line);
     Json::sax_parse(text.begin(), text.end(), &builder);
@@ -321,7 +322,7 @@ double read_number(const Json& json, const Place& place) {
 int read_integer(const Json& json, const Place& place, int low, int high) {
   const double x = read_number(json, place);
   if (x != std::floor(x) || x < low || x > high)
-    reject(place, "out-of-range", "must be a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+    reject(place, "out-of-range", low == high ? "must be " + std::to_string(low) : "must be a whole number from " + std::to_string(low) + " to " + std::to_string(high));
   return static_cast<int>(x);
 }
 

@@ -7,7 +7,9 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <memory>
 #include <sstream>
@@ -137,9 +139,23 @@ Gallery gallery_beside(bool named) {
   return read_gallery(directory);
 }
 
+/// What is measured beside the window, for as long as it runs, and where to: a signal that ends this program ends it, too. What it measures it writes at its end.
+volatile std::sig_atomic_t measuring_child = 0;
+char measuring_folder[1024] = {};
+
+void end_measuring(int signal_number) {
+  if (measuring_child > 0) kill(static_cast<pid_t>(measuring_child), SIGKILL), rmdir(measuring_folder);
+  signal(signal_number, SIG_DFL);
+  raise(signal_number);
+}
+
 /// `gjkdbg chart --quick` or `atlas --quick` beside the window, for its panel.
 class Measuring {
  public:
+  Measuring() {
+    for (const int n : {SIGTERM, SIGINT, SIGHUP})
+      if (signal(n, end_measuring) == SIG_IGN) signal(n, SIG_IGN);  // started by nohup
+  }
   ~Measuring() {
     if (child_ <= 0) return;
     kill(child_, SIGKILL);
@@ -150,12 +166,15 @@ class Measuring {
     if (!what.empty()) {
       folder_ = std::make_unique<TemporaryFolder>(), what_ = what;
       child_ = start_self({"gjkdbg", what, "--quick", "-o", folder_->path()});
+      std::strncpy(measuring_folder, folder_->path().c_str(), sizeof measuring_folder - 1);
+      measuring_child = child_;
       if (child_ <= 0) throw Error("cannot-measure", "the measurement could not be started", what);
       return std::nullopt;
     }
     int status = 0;
     if (waitpid(child_, &status, WNOHANG) == 0) return std::nullopt;
     child_ = 0;
+    measuring_child = 0;
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) throw Error("cannot-measure", "the measurement failed", what_);
     return std::filesystem::path(folder_->path()) / (what_ + ".json");
   }

@@ -65,7 +65,7 @@ void App::fit_views() {
 }
 
 void App::fit_what_has_left() {
-  const auto left = [](const Camera& all, const Camera& now) { return (all.target - now.target).norm() + all.radius > 2 * now.radius; };
+  const auto left = [](const Camera& all, const Camera& now) { return (all.target - now.target).norm() + all.radius > 2 * now.radius || 6 * all.radius < now.radius; };
   if (left(fit_world(session.meshes(), session.recording()), world_camera) || left(fit_difference(session.meshes(), session.recording()), difference_camera)) fit_views();
 }
 
@@ -95,64 +95,10 @@ void App::frame() {
   dialogs();
 }
 
-void App::panels(const Area& window) {
-  rail_open_ = false;  // unless the rail is drawn, and open
-  const float gap = theme.px(6), top = theme.px(48);
-  top_bar({0, 0, window.width, top});
-  if (!session.is_open()) return;
-  const float height = window.height - top - 2 * gap;
-  if (show_lab) {
-    lab_panel(*this, {gap, top + gap, window.width - 2 * gap, height});
-    banner({gap, top + gap, window.width - 2 * gap, theme.px(40)});
-    return;
-  }
-  if (lecture) {
-    const float bottom = std::max(theme.px(190), window.height * 0.27f);
-    theme.marks = 1.4f * lecture_scale(window.height);
-    views_ = {gap, top + gap, window.width - 2 * gap, height - bottom - gap};
-    view_panels(*this, views_, true);
-    theme.marks = 1;
-    lecture_panel({gap, top + gap + height - bottom, window.width - 2 * gap, bottom});
-    banner({gap, top + gap, window.width - 2 * gap, theme.px(40)});
-    return;
-  }
-  const bool narrow = window.width < theme.px(1180);
-  wide_ = !narrow;
-  Preferences& p = preferences;
-  const float rail = theme.px(44);
-  const float left = narrow ? rail : std::min(theme.px(p.left), window.width * 0.35f), right = std::min(theme.px(p.right), window.width * (narrow ? 0.29f : 0.4f));
-  const float lines = window.height / theme.px(900), tall = lines > 1 ? std::min(lines, 1.6f) : std::clamp(window.height / theme.px(650), 0.8f, 1.f);  // a tall window has more steps in its list, a low one fewer
-  const float bottom = std::min(theme.px(p.bottom) * tall, window.height * 0.6f);
-  const Area middle{left + 2 * gap, top + gap, window.width - left - right - 4 * gap, height - bottom - gap};
-  if (narrow) icon_rail({gap, top + gap, left, height});
-  else left_panel({gap, top + gap, left, height}), rail_opens_.reset();
-  views_ = middle;
-  view_panels(*this, middle, true);
-  timeline_panel(*this, {middle.x, middle.y + middle.height + gap, middle.width, bottom});
-  step_panel(*this, {window.width - right - gap, top + gap, right, height});
-  if (!narrow) splitter("##left", {left + gap, top + gap, gap, height}, true, p.left, 200, 460, 1);
-  splitter("##right", {window.width - right - 2 * gap, top + gap, gap, height}, true, p.right, 240, 560, -1);
-  splitter("##bottom", {middle.x, middle.y + middle.height, middle.width, gap}, false, p.bottom, 130, 520, -1 / tall);
-  banner({middle.x + gap, middle.y + gap, middle.width - 2 * gap, theme.px(40)});
-}
-
 void App::edit(const SceneFile& next) {
   const bool theirs = foreign(session.recording());
   message = session.edit(next);
   if (theirs && message.empty()) note("solved by gjkdbg's own method from here on; Ctrl-Z brings your solver's run back");
-}
-
-/// The gap between two panels: dragging it moves the border, a double click puts it back.
-void App::splitter(const char* name, const Area& area, bool vertical, float& value, float low, float high, float sign) {
-  ImGui::SetCursorScreenPos({area.x, area.y});
-  ImGui::InvisibleButton(name, {area.width, area.height});
-  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
-    ImGui::SetMouseCursor(vertical ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
-    ImGui::GetWindowDrawList()->AddRectFilled({area.x + (vertical ? area.width / 3 : 0), area.y + (vertical ? 0 : area.height / 3)},
-                                              {area.x + area.width * (vertical ? 2.f / 3 : 1), area.y + area.height * (vertical ? 1 : 2.f / 3)}, packed(theme.palette.accent));
-  }
-  const ImVec2 moved = ImGui::GetIO().MouseDelta;
-  if (ImGui::IsItemActive()) value = std::clamp(value + sign * (vertical ? moved.x : moved.y) / theme.scale, low, high);
 }
 
 /// What went wrong, over the views, until something succeeds or it is clicked away; what was done, for a while.
@@ -176,6 +122,7 @@ void App::banner(const Area& area) {
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
+  if (error) draw->AddText({x + width - theme.px(22), area.y + (height - ImGui::GetTextLineHeight()) / 2}, packed(rgb(0xffffff)), "\xC3\x97");
   if (error && ImGui::IsWindowHovered()) {
     ImGui::SetTooltip("click to close");
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) message.clear();
@@ -256,11 +203,14 @@ void App::top_bar(const Area& area) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {theme.px(16), theme.px(9)});
   begin_area("top", area);
   ImGui::PopStyleVar();
-  ImGui::PushFont(theme.title);
-  ImGui::AlignTextToFramePadding();
-  ImGui::TextUnformatted("gjkdbg");
-  ImGui::PopFont();
-  ImGui::SameLine(0, theme.px(20));
+  const bool name_fits = area.width >= theme.px(470), all_fit = area.width >= theme.px(400);  // what goes first has a key
+  if (name_fits) {
+    ImGui::PushFont(theme.title);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("gjkdbg");
+    ImGui::PopFont();
+    ImGui::SameLine(0, theme.px(20));
+  }
   ImGui::PushStyleColor(ImGuiCol_Button, vec(theme.palette.panel));
   const auto button = [&](const char* name, const char* tip) {
     const bool pressed = ImGui::Button(name);
@@ -272,8 +222,8 @@ void App::top_bar(const Area& area) {
   if (button("Save", "Save the scene, the recording, a picture or the replay (Ctrl-S)")) ask(Asking::save);
   if (button("Find", "Find a step (Ctrl-F)")) open_find_bar();
   if (button("Measure", "Speed against accuracy, stability where methods fail (X)")) show_lab = !show_lab;
-  if (button("Explain", "Big text, for a hall (E)")) lecture = !lecture;
-  if (button(theme.dark ? "Light" : "Dark", "The other colours (T)")) preferences.dark = !preferences.dark;
+  if (all_fit && button("Explain", "Big text, for a hall (E)")) lecture = !lecture;
+  if (all_fit && button(theme.dark ? "Light" : "Dark", "The other colours (T)")) preferences.dark = !preferences.dark;
   if (button("Keys", "All keys (?)")) show_keys = !show_keys;
   ImGui::PopStyleColor();
   if (session.is_open()) title_and_chips(area);

@@ -48,7 +48,9 @@ class App {
 
   /// Opens a file or a gallery scene; what is wrong is shown in the window.
   void open(const std::filesystem::path& file);
-  /// The same: a scene, a recording, a chart.json or an atlas.json; throws Error.
+  /// Files dropped on the window. The first is what a dialog asks for, where one does, or is opened; with the next frame.
+  void drop(const std::vector<std::filesystem::path>& files) { dropped_ = files; }
+  /// The same as `open`: a scene, a recording, a chart.json or an atlas.json; throws Error.
   void open_or_throw(const std::filesystem::path& file);
   void open_gallery(const std::string& name);
   /// The gallery's next scene (1) or the one before (-1), through all lessons; of a scene that is not there its first or last.
@@ -68,7 +70,7 @@ class App {
   /// Whether the next frame would differ without any input: something plays, or a notice fades.
   bool moving() const { return session.playing || notice_left_ > 0 || thumbnails_.busy(); }
   void fit_views();
-  /// Where an edit has taken a body out of the views.
+  /// Where an edit has taken a body out of the views, or left it as a speck in them.
   void fit_what_has_left();
   /// For as long as it takes to read it.
   void note(std::string text) { notice = std::move(text), notice_left_ = std::max(3.f, 0.08f * static_cast<float>(notice.size())); }
@@ -95,6 +97,7 @@ class App {
   void lecture_place(const std::string& place);
   float lecture_scale(float window_height) const;
   void panels(const Area& window);
+  void small_panels(const Area& window);
   void splitter(const char* name, const Area& area, bool vertical, float& value, float low, float high, float sign);
   void banner(const Area& area);
   void key_sheet();
@@ -102,6 +105,8 @@ class App {
   void file_dialog();
   void file_list();
   void file_entered();
+  void file_dropped(bool dialog);
+  bool file_taken(const std::string& name);
   void file_saved();
   void find_bar();
   void find_keys();
@@ -128,6 +133,7 @@ class App {
   char file_buffer_[1024] = {};
   std::string file_error_;                ///< what became of the name in the dialog
   std::string replacing_;                 ///< a file that is there; saved over when it is asked for once more
+  std::vector<std::filesystem::path> dropped_;
   bool saving_ = false;                   ///< the host has been asked to
   bool name_wanted_ = false;              ///< with the next frame the name can be typed on
   std::optional<std::string> listed_for_; ///< the name whose possible ends are listed
@@ -140,6 +146,10 @@ class App {
 
 void gallery_panel(App& app);
 void scene_panel(App& app);
+/// Of the scene panel, all bodies that it shows, each with what can be edited; true when edited.
+bool all_bodies(App& app, SceneFile& next, double size);
+/// Moving scenes take any number of bodies.
+bool add_body(SceneFile& next);
 /// Of the scene panel, each with its heading.
 void compare_section(App& app);
 void stop_section(App& app);
@@ -192,6 +202,9 @@ std::string all_digits(double x);
 Colour letter_colour(App& app, int body);
 /// One of several buttons of which one is `current`; width 0: as the text needs.
 bool tab_button(const Theme& theme, const char* name, bool current, float width = 0);
+constexpr float label_width = 96;  ///< of the scene panel's rows, in logical pixels
+/// One labelled row of numbers, or where `digits`, if more than usual are wanted, have no room in one, a row each; true when edited.
+bool numbers(const Theme& theme, const char* label, double* values, int count, float speed, const double* low = nullptr, int digits = 4);
 /// A rounded label.
 void chip(const Theme& theme, const std::string& text, Colour colour);
 Colour event_colour(const Palette& palette, const Event& event);

@@ -27,6 +27,7 @@ void App::dialogs() {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 1);
   const bool shown = ImGui::BeginPopupModal("ask", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoSavedSettings);
   ImGui::PopStyleVar();
+  if (!dropped_.empty()) file_dropped(shown);
   if (!shown) return;
   if (asked_ == Asking::go_to) go_to_dialog();
   else file_dialog();

@@ -94,17 +94,32 @@ void App::file_list() {
   if (!chosen->ends_with('/')) file_entered();
 }
 
+/// To be opened or compared with; what is wrong with it is said in the dialog.
+bool App::file_taken(const std::string& name) {
+  try {
+    asked_ == Asking::compare ? compare_or_throw(name) : open_or_throw(name);
+    message.clear();
+    return true;
+  } catch (const Error& e) {
+    file_error_ = e.line(), name_wanted_ = true;
+    return false;
+  }
+}
+
+/// Within the dialog, where one is open: if it asks for a file to read, this is it; if for something else, that is over.
+void App::file_dropped(bool dialog) {
+  const std::vector<fs::path> files = std::exchange(dropped_, {});
+  const bool reads = dialog && (asked_ == Asking::open || asked_ == Asking::compare);
+  const bool taken = reads ? file_taken(files[0].string()) : (open(files[0]), message.empty());
+  if (dialog && (taken || !reads)) ImGui::CloseCurrentPopup();
+  if (taken && files.size() > 1) note("of " + std::to_string(files.size()) + " files the first is open; COMPARE WITH takes another");
+}
+
 void App::file_entered() {
   const std::string name = at_home(file_buffer_);
   file_error_.clear();
   if (asked_ != Asking::save) {
-    try {
-      asked_ == Asking::compare ? compare_or_throw(name) : open_or_throw(name);
-      message.clear();
-      ImGui::CloseCurrentPopup();
-    } catch (const Error& e) {
-      file_error_ = e.line(), name_wanted_ = true;
-    }
+    if (file_taken(name)) ImGui::CloseCurrentPopup();
     return;
   }
   std::error_code ignored;

@@ -81,7 +81,7 @@ void draw(GLFWwindow* window, App& app) {
 }
 
 void open_dropped(GLFWwindow* window, int count, const char** files) {
-  if (count > 0) static_cast<App*>(glfwGetWindowUserPointer(window))->open(files[0]);
+  if (count > 0) static_cast<App*>(glfwGetWindowUserPointer(window))->drop({files, files + count});
 }
 
 /// Shows a solver's new run at the step where the old one was.

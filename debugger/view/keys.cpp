@@ -25,8 +25,8 @@ void App::step_keys(bool shift, bool control) {
 }
 
 void App::control_keys(bool shift) {
-  if (key_pressed(Key::z) && session.can_undo()) session.undo();
-  if (key_pressed(Key::y) && session.can_redo()) session.redo();
+  if (key_pressed(Key::z) && session.can_undo()) session.undo(), fit_what_has_left();
+  if (key_pressed(Key::y) && session.can_redo()) session.redo(), fit_what_has_left();
   if (key_pressed(Key::o)) ask(Asking::open);
   if (key_pressed(Key::s)) ask(Asking::save);
   if (key_pressed(Key::f)) open_find_bar();

@@ -67,11 +67,14 @@ void atlas_area(App& app, ImVec2 at, ImVec2 size) {
   }
   const float label = theme.px(150), top = pen.y + theme.px(52), gap = theme.px(2);
   const float width = std::min(theme.px(90), (size.x - label) / static_cast<float>(columns)), height = std::clamp((at.y + size.y - top) / static_cast<float>(rows), theme.px(18), theme.px(34));
+  float free_from = at.x;
   for (std::size_t f = 0; f < columns; ++f) {
     const std::string& name = atlas.families[f].name;
     const ImVec2 low{at.x + label + width * static_cast<float>(f), top - theme.px(22)};
     const bool hovered = ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(low, {low.x + width, top});
-    small_text(theme, {low.x + (width - small_width(theme, name)) / 2, low.y + theme.px(2)}, hovered ? p.text : p.text_soft, name);
+    const float left = low.x + (width - small_width(theme, name)) / 2;
+    // Where not all have room some are told by pointing at their columns only.
+    if (left >= free_from) small_text(theme, {left, low.y + theme.px(2)}, hovered ? p.text : p.text_soft, name), free_from = left + small_width(theme, name) + theme.px(2);
     if (hovered) ImGui::SetTooltip("%s: %s", name.c_str(), atlas.families[f].what.c_str());
   }
   const MeasuredAtlas::Family* pointed = nullptr;
@@ -150,11 +153,16 @@ bool measure_button(const Theme& theme, bool there) {
 void lab_panel(App& app, const Area& area) {
   const Theme& theme = app.theme;
   if (begin_area("lab", area, true)) {
+    const auto below_unless_room = [&](const char* text) {
+      if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize(text).x + 2 * ImGui::GetStyle().FramePadding.x) ImGui::NewLine();
+    };
     for (const auto& [name, value] : {std::pair("Speed against accuracy", App::LabTab::chart), {"Stability where methods fail", App::LabTab::atlas}}) {
+      below_unless_room(name);
       if (tab_button(theme, name, app.lab_tab == value)) app.lab_tab = value;
       ImGui::SameLine();
     }
     const bool chart = app.lab_tab == App::LabTab::chart, there = chart ? app.measured.chart.has_value() : app.measured.atlas.has_value();
+    below_unless_room("Measure again");
     if (app.measuring) ImGui::TextColored(vec(theme.palette.text_soft), "measuring, some seconds ...");
     else if (measure_button(theme, there)) app.measure_requested = chart ? "chart" : "atlas";
     ImGui::SameLine();
@@ -162,9 +170,11 @@ void lab_panel(App& app, const Area& area) {
     const std::string back = "Back to " + (before ? shortened(theme.text, *before, theme.px(220)) : "the scene");
     const float right = ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(back.c_str()).x - theme.px(18);
     if (right > ImGui::GetCursorPosX()) ImGui::SetCursorPosX(right);
+    else below_unless_room(back.c_str());
     if (ImGui::Button(back.c_str())) app.session.take_up_again(), app.show_lab = false;
     if (chart && there) {
       for (const auto& [name, value] : {std::pair("error", App::ChartView::error), {"certified gap", App::ChartView::gap}, {"iterations", App::ChartView::iterations}, {"price of modelling", App::ChartView::price}, {"motion", App::ChartView::motion}}) {
+        below_unless_room(name);
         if (tab_button(theme, name, app.chart_view == value)) app.chart_view = value;
         ImGui::SameLine();
       }

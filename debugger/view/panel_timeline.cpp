@@ -33,8 +33,8 @@ void draw_icon(ImDrawList* draw, Icon icon, ImVec2 c, float r, ImU32 colour) {
   }
 }
 
-bool icon_button(const Theme& theme, const char* id, Icon icon, const char* tip, bool strong = false) {
-  const ImVec2 size{theme.px(36), theme.px(30)}, at = ImGui::GetCursorScreenPos();
+bool icon_button(const Theme& theme, float width, const char* id, Icon icon, const char* tip, bool strong = false) {
+  const ImVec2 size{width, theme.px(30)}, at = ImGui::GetCursorScreenPos();
   if (strong) ImGui::PushStyleColor(ImGuiCol_Button, vec(theme.palette.accent));
   const bool pressed = ImGui::Button(id, size);
   if (strong) ImGui::PopStyleColor();
@@ -49,18 +49,20 @@ bool icon_button(const Theme& theme, const char* id, Icon icon, const char* tip,
 void transport(App& app) {
   Session& s = app.session;
   const Theme& theme = app.theme;
-  if (icon_button(theme, "##first", Icon::first, "To the beginning (Home)")) s.go_to(0);
-  if (icon_button(theme, "##back_iteration", Icon::back_iteration, "Back an iteration (Shift+Left)")) s.step_iteration(-1);
-  if (icon_button(theme, "##back", Icon::back, "Back an event (Left)")) s.step_by(-1);
-  if (icon_button(theme, "##play", s.playing ? Icon::pause : Icon::play, "Play (Space)", true)) s.toggle_play();
-  if (icon_button(theme, "##forward", Icon::forward, "On an event (Right)")) s.step_by(1);
-  if (icon_button(theme, "##forward_iteration", Icon::forward_iteration, "On an iteration (Shift+Right)")) s.step_iteration(1);
-  if (icon_button(theme, "##last", Icon::last, "To the end (End)")) s.go_to(s.count() - 1);
+  const float width = std::clamp((ImGui::GetContentRegionAvail().x - theme.px(6 * 5)) / 7, theme.px(18), theme.px(36));  // all seven have room
+  if (icon_button(theme, width, "##first", Icon::first, "To the beginning (Home)")) s.go_to(0);
+  if (icon_button(theme, width, "##back_iteration", Icon::back_iteration, "Back an iteration (Shift+Left)")) s.step_iteration(-1);
+  if (icon_button(theme, width, "##back", Icon::back, "Back an event (Left)")) s.step_by(-1);
+  if (icon_button(theme, width, "##play", s.playing ? Icon::pause : Icon::play, "Play (Space)", true)) s.toggle_play();
+  if (icon_button(theme, width, "##forward", Icon::forward, "On an event (Right)")) s.step_by(1);
+  if (icon_button(theme, width, "##forward_iteration", Icon::forward_iteration, "On an iteration (Shift+Right)")) s.step_iteration(1);
+  if (icon_button(theme, width, "##last", Icon::last, "To the end (End)")) s.go_to(s.count() - 1);
   std::string count = "step " + std::to_string(s.step()) + " of " + std::to_string(s.count() - 1);
   const float right = ImGui::GetWindowContentRegionMax().x;
   const bool simulated = s.scene().scene.query == Query::simulate;
   if (simulated && ImGui::GetCursorPosX() + theme.px(300) + ImGui::CalcTextSize(count.c_str()).x > right) count = std::to_string(s.step()) + " / " + std::to_string(s.count() - 1);
   const float count_width = ImGui::CalcTextSize(count.c_str()).x;
+  if (ImGui::GetCursorPosX() + count_width > right + theme.px(8)) return ImGui::NewLine();  // the step's panel has it, too
   if (ImGui::GetCursorPosX() + theme.px(190) + count_width > right) {  // no room for more
     ImGui::SameLine(std::max(ImGui::GetCursorPosX(), right - count_width));
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() + (theme.px(30) - ImGui::GetFrameHeight()) / 2);
@@ -341,12 +343,11 @@ void event_list(App& app, float width, float height) {
 
 void timeline_panel(App& app, const Area& area) {
   if (!begin_area("timeline", area)) return ImGui::EndChild();
-  transport(app);
-  ImGui::Dummy({0, app.theme.px(4)});
+  if (area.height > app.theme.px(100)) transport(app), ImGui::Dummy({0, app.theme.px(4)});
   const bool moves = app.session.scene().scene.motion.has_value();
   if (moves) time_axis(app);
   scrubber(app);
-  legend(app);
+  if (ImGui::GetContentRegionAvail().y > app.theme.px(16)) legend(app);
   const ImVec2 left = ImGui::GetContentRegionAvail();
   if (left.y > app.theme.px(40)) {
     const float list = left.x > app.theme.px(560) ? left.x * 0.56f : left.x;

@@ -21,7 +21,7 @@ bool begin_list(const char* name) { return ImGui::BeginChild(name, {0, 0}, false
 void section(const Theme& theme, const char* title) {
   ImGui::Dummy({0, theme.px(4)});
   ImGui::PushFont(theme.small);
-  ImGui::TextColored(vec(theme.palette.text_faint), "%s", title);
+  wrapped(title, theme.palette.text_faint);
   ImGui::PopFont();
 }
 
