@@ -147,11 +147,80 @@ std::vector<std::size_t> ticks(const std::vector<Event>& events, float cell) {
   return drawn;
 }
 
-/// Breakpoints as discs, bookmarks as their digits, on the lower edge and before all else.
-void marks(const App& app, ImDrawList* draw, float left, float bottom, float cell) {
-  const Theme& theme = app.theme;
+/// The strip that the scrubber draws on: its corner, its size, and the width of one event.
+struct Strip {
+  ImVec2 at, size;
+  float cell;
+
+  float left_of(std::size_t step) const { return at.x + static_cast<float>(step) * cell; }
+  float middle_of(std::size_t step) const { return at.x + (static_cast<float>(step) + 0.5f) * cell; }
+  float bottom() const { return at.y + size.y; }
+  /// The step under the mouse, or the nearest.
+  std::size_t under_mouse(std::size_t count) const { return static_cast<std::size_t>(std::clamp((ImGui::GetIO().MousePos.x - at.x) / cell, 0.f, static_cast<float>(count) - 1)); }
+};
+
+/// Every other band is drawn a little lighter; their numbers stand at the top.
+void draw_bands(const Theme& theme, const std::vector<Event>& events, const Strip& strip) {
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  std::vector<Band> bands;
+  for (std::size_t i = 0; i < events.size();) {
+    std::size_t end = i + 1;
+    const int phase = phase_of(events[i]);
+    int iteration = iteration_of(events[i]);
+    const auto belongs = [&](const Event& event) { return std::holds_alternative<recorded::Warning>(event) || (phase_of(event) == phase && (iteration < 0 || iteration_of(event) == iteration)); };
+    for (; end < events.size() && belongs(events[end]); ++end)
+      if (iteration < 0) iteration = iteration_of(events[end]);
+    const float x0 = strip.left_of(i), x1 = strip.left_of(end);
+    if (bands.size() % 2 == 1 && x1 - x0 >= 1) draw->AddRectFilled({x0, strip.at.y}, {x1, strip.bottom()}, packed(theme.palette.hover.with_alpha(0.6)));
+    // Those of a cast go by their times, above.
+    const bool timed = std::holds_alternative<recorded::CastAdvanced>(events[i]) || std::holds_alternative<recorded::CastEnded>(events[i]);
+    bands.push_back({x0, phase, timed ? -1 : std::max(0, iteration)});
+    i = end;
+  }
+  std::erase_if(bands, [](const Band& band) { return band.iteration < 0; });
+  number_bands(theme, bands, strip.at, strip.at.x + strip.size.x);
+}
+
+void draw_ticks(const Theme& theme, const std::vector<Event>& events, const Strip& strip) {
+  const float width = std::clamp(strip.cell * 0.4f, 1.f, theme.px(5)), low = strip.bottom() - theme.px(6), high = strip.at.y + theme.px(19);
+  const auto draw_tick = [&](std::size_t i, float wide) {
+    const float x = strip.middle_of(i);
+    ImGui::GetWindowDrawList()->AddRectFilled({x - wide / 2, low - (low - high) * event_share(events[i])}, {x + wide / 2, low}, packed(event_colour(theme.palette, events[i])), 1);
+  };
+  const std::vector<std::size_t> drawn = ticks(events, strip.cell);
+  for (const std::size_t i : drawn) draw_tick(i, width);
+  for (const std::size_t i : drawn)
+    if (rarity(events[i]) >= 3) draw_tick(i, std::max(width, theme.px(2.5f)));  // before those beside them
+}
+
+/// Where the two runs part, the findings, the loop, and where we are.
+void draw_flags(const Theme& theme, const Session& s, const Strip& strip) {
   const Palette& p = theme.palette;
-  const auto place = [&](std::size_t step) { return ImVec2{left + (static_cast<float>(step) + 0.5f) * cell, bottom - theme.px(1)}; };
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const float top = strip.at.y, bottom = strip.bottom();
+  if (s.parting() && s.parting()->event < s.count()) {
+    const float x = strip.middle_of(s.parting()->event);
+    draw->AddLine({x, top}, {x, bottom}, packed(p.text_soft), theme.px(2));
+    draw->AddText(theme.small, theme.small->FontSize * 0.85f, {x + theme.px(4), top + theme.px(2)}, packed(p.text_soft), "parts");
+  }
+  for (const Finding& f : s.findings()) {
+    const float x = strip.middle_of(f.step), r = theme.px(5);
+    draw->AddTriangleFilled({x - r, top + theme.px(2)}, {x + r, top + theme.px(2)}, {x, top + theme.px(2) + 1.6f * r}, packed(p.newest));
+    draw->AddLine({x, top}, {x, bottom}, packed(p.newest), theme.px(1.5f));
+  }
+  if (s.loop && (s.loop_from || s.loop_to))
+    draw->AddRect({strip.left_of(s.loop_from.value_or(0)), top}, {strip.left_of(s.loop_to.value_or(s.count() - 1) + 1), bottom}, packed(p.accent), theme.px(3), 0, theme.px(2));
+  const float x = strip.middle_of(s.step());
+  draw->AddLine({x, top - theme.px(2)}, {x, bottom + theme.px(2)}, packed(p.text), theme.px(2));
+  draw->AddTriangleFilled({x - theme.px(6), top - theme.px(7)}, {x + theme.px(6), top - theme.px(7)}, {x, top + theme.px(1)}, packed(p.text));
+}
+
+/// Breakpoints as discs, bookmarks as their digits, on the lower edge and before all else.
+void draw_marks(const App& app, const Strip& strip) {
+  const Theme& theme = app.theme;
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const Palette& p = theme.palette;
+  const auto place = [&](std::size_t step) { return ImVec2{strip.middle_of(step), strip.bottom() - theme.px(1)}; };
   for (const std::size_t step : app.session.breakpoints) {
     draw->AddCircleFilled(place(step), theme.px(6), packed(p.panel), 20);
     draw->AddCircleFilled(place(step), theme.px(4.5f), packed(p.newest), 20);
@@ -170,63 +239,20 @@ void marks(const App& app, ImDrawList* draw, float left, float bottom, float cel
 void scrubber(App& app) {
   Session& s = app.session;
   const Theme& theme = app.theme;
-  const Palette& p = theme.palette;
-  const ImVec2 at = ImGui::GetCursorScreenPos(), size{ImGui::GetContentRegionAvail().x, theme.px(44)};
+  const ImVec2 size{ImGui::GetContentRegionAvail().x, theme.px(44)};
+  const Strip strip{ImGui::GetCursorScreenPos(), size, size.x / static_cast<float>(s.count())};
   ImGui::InvisibleButton("scrubber", size);
-  const auto count = static_cast<float>(s.count());
-  const float cell = size.x / count;
   const bool held = ImGui::IsItemActive(), hovered = ImGui::IsItemHovered();
-  if (held) s.playing = false, s.go_to(static_cast<std::size_t>(std::clamp((ImGui::GetIO().MousePos.x - at.x) / cell, 0.f, count - 1)));
-  ImDrawList* draw = ImGui::GetWindowDrawList();
-  draw->AddRectFilled(at, {at.x + size.x, at.y + size.y}, packed(p.field), theme.px(4));
-  std::vector<Band> bands;
-  for (std::size_t i = 0; i < s.count();) {
-    std::size_t end = i + 1;
-    const int phase = phase_of(s.recording().events[i]);
-    int iteration = iteration_of(s.recording().events[i]);
-    const auto belongs = [&](const Event& event) { return std::holds_alternative<recorded::Warning>(event) || (phase_of(event) == phase && (iteration < 0 || iteration_of(event) == iteration)); };
-    for (; end < s.count() && belongs(s.recording().events[end]); ++end)
-      if (iteration < 0) iteration = iteration_of(s.recording().events[end]);
-    const float x0 = at.x + static_cast<float>(i) * cell, x1 = at.x + static_cast<float>(end) * cell;
-    if (bands.size() % 2 == 1 && x1 - x0 >= 1) draw->AddRectFilled({x0, at.y}, {x1, at.y + size.y}, packed(p.hover.with_alpha(0.6)));
-    // Those of a cast go by their times, above.
-    const bool timed = std::holds_alternative<recorded::CastAdvanced>(s.recording().events[i]) || std::holds_alternative<recorded::CastEnded>(s.recording().events[i]);
-    bands.push_back({x0, phase, timed ? -1 : std::max(0, iteration)});
-    i = end;
-  }
-  std::erase_if(bands, [](const Band& band) { return band.iteration < 0; });
-  number_bands(theme, bands, at, at.x + size.x);
-  const float tick = std::clamp(cell * 0.4f, 1.f, theme.px(5));
-  const auto draw_tick = [&](std::size_t i, float width) {
-    const Event& event = s.recording().events[i];
-    const float x = at.x + (static_cast<float>(i) + 0.5f) * cell, low = at.y + size.y - theme.px(6), high = at.y + theme.px(19);
-    draw->AddRectFilled({x - width / 2, low - (low - high) * event_share(event)}, {x + width / 2, low}, packed(event_colour(p, event)), 1);
-  };
-  const std::vector<std::size_t> drawn = ticks(s.recording().events, cell);
-  for (const std::size_t i : drawn) draw_tick(i, tick);
-  for (const std::size_t i : drawn)
-    if (rarity(s.recording().events[i]) >= 3) draw_tick(i, std::max(tick, theme.px(2.5f)));  // before those beside them
-  if (s.parting() && s.parting()->event < s.count()) {
-    const float x = at.x + (static_cast<float>(s.parting()->event) + 0.5f) * cell;
-    draw->AddLine({x, at.y}, {x, at.y + size.y}, packed(p.text_soft), theme.px(2));
-    draw->AddText(theme.small, theme.small->FontSize * 0.85f, {x + theme.px(4), at.y + theme.px(2)}, packed(p.text_soft), "parts");
-  }
-  for (const Finding& f : s.findings()) {
-    const float x = at.x + (static_cast<float>(f.step) + 0.5f) * cell, r = theme.px(5);
-    draw->AddTriangleFilled({x - r, at.y + theme.px(2)}, {x + r, at.y + theme.px(2)}, {x, at.y + theme.px(2) + 1.6f * r}, packed(p.newest));
-    draw->AddLine({x, at.y}, {x, at.y + size.y}, packed(p.newest), theme.px(1.5f));
-  }
-  if (s.loop && (s.loop_from || s.loop_to)) {
-    const float x0 = at.x + static_cast<float>(s.loop_from.value_or(0)) * cell, x1 = at.x + static_cast<float>(s.loop_to.value_or(s.count() - 1) + 1) * cell;
-    draw->AddRect({x0, at.y}, {x1, at.y + size.y}, packed(p.accent), theme.px(3), 0, theme.px(2));
-  }
-  const float x = at.x + (static_cast<float>(s.step()) + 0.5f) * cell;
-  draw->AddLine({x, at.y - theme.px(2)}, {x, at.y + size.y + theme.px(2)}, packed(p.text), theme.px(2));
-  draw->AddTriangleFilled({x - theme.px(6), at.y - theme.px(7)}, {x + theme.px(6), at.y - theme.px(7)}, {x, at.y + theme.px(1)}, packed(p.text));
-  marks(app, draw, at.x, at.y + size.y, cell);
+  if (held) s.playing = false, s.go_to(strip.under_mouse(s.count()));
+  const std::vector<Event>& events = s.recording().events;
+  ImGui::GetWindowDrawList()->AddRectFilled(strip.at, {strip.at.x + size.x, strip.bottom()}, packed(theme.palette.field), theme.px(4));
+  draw_bands(theme, events, strip);
+  draw_ticks(theme, events, strip);
+  draw_flags(theme, s, strip);
+  draw_marks(app, strip);
   if (!hovered || held) return;
-  const auto under = static_cast<std::size_t>(std::clamp((ImGui::GetIO().MousePos.x - at.x) / cell, 0.f, count - 1));
-  ImGui::SetTooltip("step %zu  %s  %s", under, short_kind(s.recording().events[under]), summary(s.recording(), under, app.settings.newest_first).c_str());
+  const std::size_t under = strip.under_mouse(s.count());
+  ImGui::SetTooltip("step %zu  %s  %s", under, short_kind(events[under]), summary(s.recording(), under, app.settings.newest_first).c_str());
 }
 
 namespace {
