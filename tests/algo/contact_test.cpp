@@ -83,6 +83,18 @@ TEST(Contact, TwoEndsShareALens) {
   EXPECT_GE(found.size(), 4U);
 }
 
+TEST(Contact, AnEndWithinALargerOneTouchesWithItsRim) {
+  const std::string small = R"({"type": "cylinder", "radius": 0.2, "half_height": 0.5})";
+  for (const bool small_first : {true, false}) {
+    const auto found = small_first ? contacts(placed(small, "[0.1, -0.5, 0]"), placed(cylinder, "[0, 0.45, 0]")) : contacts(placed(cylinder, "[0, -0.5, 0]"), placed(small, "[0.1, 0.45, 0]"));
+    EXPECT_GE(found.size(), 4U);
+    for (const ContactPoint& c : found) {
+      EXPECT_NEAR(std::hypot(c.point_a[0] - 0.1, c.point_a[2]), 0.2, 1e-9) << "small first: " << small_first;
+      EXPECT_NEAR(c.depth, 0.05, 1e-9);
+    }
+  }
+}
+
 TEST(Contact, LyingBodiesTouchAlongALineAndTiltedOnesAtAPoint) {
   const auto line = on_table(cylinder, 0, 0.5 - deep, lying);
   ASSERT_EQ(line.size(), 2U);
