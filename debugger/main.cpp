@@ -4,14 +4,18 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <iostream>
+#include <new>
+#include <string_view>
 
 #include "debugger/commands/commands.h"
 #include "debugger/commands/input.h"
+#include "debugger/commands/output_file.h"
 #include "recordings/json_reading.h"
 #include "recordings/recording.h"
 
@@ -72,10 +76,21 @@ void keep_standard_streams() {
     if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);
 }
 
+/// Where no memory is left the program ends here: an exception would not reach `run`, because JSON values need memory even to be destroyed.
+[[noreturn]] void out_of_memory() {
+  static std::atomic_flag told_already;
+  while (told_already.test_and_set()) pause();  // another thread is ending the program
+  gjkdbg::abandon_output();
+  constexpr std::string_view said = "gjkdbg: out of memory\n";
+  [[maybe_unused]] const auto told = write(STDERR_FILENO, said.data(), said.size());
+  _exit(gjkdbg::exit_bad_input);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   keep_standard_streams();
+  std::set_new_handler(out_of_memory);
   std::signal(SIGPIPE, SIG_IGN);  // a solver or a reader that leaves early must not end the program
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow on is an error like any other
   std::signal(SIGCHLD, SIG_DFL);  // who started us may ignore it; then nobody is told how a solver ended

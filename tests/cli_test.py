@@ -263,7 +263,6 @@ class Program(unittest.TestCase):
         self.assertEqual(json.loads(target.read_text())["version"], 1)
         self.assertEqual([p.name for p in self.path.iterdir() if ".part" in p.name], [])
 
-    @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
     def test_interrupted_writing_leaves_nothing(self):
         line = json.dumps(json.loads((ROOT / "recordings/gallery/pair-hull-hull.scene.json").read_text()))
         with tempfile.TemporaryDirectory() as folder:
@@ -281,6 +280,25 @@ class Program(unittest.TestCase):
                 self.assertEqual(os.listdir(folder), [])
                 program.stdin.close()
 
+    @unittest.skipIf(SANITIZED or sys.platform != "linux", "takes all addresses there are")
+    def test_out_of_memory(self):
+        points = [[x % 89, x % 97, x % 101] for x in range(60000)]
+        line = json.dumps({**CUBES, "bodies": [{"shape": {"type": "hull", "points": points}}, CUBES["bodies"][1]]})
+        scene, lines = self.write("hull.json", line), self.write("hulls.jsonl", (line + "\n") * 4)
+        with tempfile.TemporaryDirectory() as folder:
+            ended = set()
+            for kilobytes in range(40000, 360000, 40000):
+                for arguments in (("dump", scene), ("query", lines), ("query", lines, "--jobs", 4)):
+                    result = subprocess.run(["sh", "-c", f'ulimit -v {kilobytes}; exec "$0" "$@"', PROGRAM, *map(str, arguments), "-o", f"{folder}/out"], capture_output=True, text=True)
+                    ended.add(result.returncode)
+                    if result.returncode == 0:
+                        os.remove(f"{folder}/out")
+                    elif result.returncode != 127:  # 127: the program itself has no room
+                        self.assertEqual((result.returncode, result.stderr), (2, "gjkdbg: out of memory\n"))
+                    self.assertEqual(os.listdir(folder), [])
+            self.assertEqual(ended - {127}, {0, 2})
+
+    @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
     def test_full_disk(self):
         recording = self.path / "cubes.recording.json"
         run("dump", self.scene, "-o", recording)

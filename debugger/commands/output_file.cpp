@@ -15,7 +15,7 @@ namespace {
 char part[4096];  ///< the file being written, for the handler
 
 extern "C" void remove_part(int signal) {
-  if (part[0] != 0) unlink(part);
+  abandon_output();
   std::signal(signal, SIG_DFL);
   raise(signal);
 }
@@ -31,6 +31,10 @@ void remove_when_interrupted(const std::string& path) {
 }
 
 }  // namespace
+
+void abandon_output() {
+  if (part[0] != 0) unlink(part);
+}
 
 OutputFile::OutputFile(const std::string& path) {
   if (path.empty() || path == "-") {

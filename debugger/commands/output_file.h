@@ -27,6 +27,9 @@ class OutputFile {
   std::FILE* file_ = nullptr;
 };
 
+/// Of a program that ends where it stands: what is being written is not left behind. Allocates nothing.
+void abandon_output();
+
 /// All of it, at once.
 void write_output(const std::string& path, std::string_view text);
 

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <system_error>
 #include <thread>
 
 #include "algo/solve.h"
@@ -98,7 +99,13 @@ class Queries {
     const auto work = [&](std::size_t part) {
       for (std::size_t i = count * part / parts; i < count * (part + 1) / parts; ++i) answer(lines[i], line_ + i + 1, answers[part]);
     };
-    for (std::size_t part = 1; part < parts; ++part) threads.emplace_back(work, part);
+    for (std::size_t part = 1; part < parts; ++part) {
+      try {
+        threads.emplace_back(work, part);
+      } catch (const std::system_error&) {  // no more threads are to be had: this one does what theirs would have done
+        work(part);
+      }
+    }
     work(0);
     for (std::thread& thread : threads) thread.join();
     return answers;
