@@ -157,6 +157,38 @@ TEST_F(Hands, LookingAtANumberDoesNotChangeIt) {
   EXPECT_EQ(session.recording().settings.tolerance, 1.23456e-7);
 }
 
+/// The scene is not seen then; what only makes sense with it leads back to it.
+TEST_F(Hands, KeysBesideTheChartsChangeNothingOfTheScene) {
+  session.go_to(3);
+  session.playing = true;
+  host.press(Key::x);
+  ASSERT_TRUE(app.show_lab);
+  EXPECT_FALSE(session.playing) << "it would play on unseen";
+  SceneFile next = session.scene();
+  next.method.max_iterations = 40;
+  app.edit(next);
+  const std::size_t step = session.step();
+  for (const Key key : {Key::right, Key::left, Key::home, Key::end, Key::space, Key::b, Key::m, Key::left_bracket, Key::page_down, Key::v, Key::digit_1}) host.press(key);
+  host.press(Key::z, false, true);
+  EXPECT_TRUE(app.show_lab);
+  EXPECT_EQ(session.step(), step);
+  EXPECT_FALSE(session.playing || session.loop);
+  EXPECT_TRUE(session.breakpoints.empty() && session.bookmarks.empty());
+  EXPECT_EQ(session.recording().settings.max_iterations, 40);
+  const bool dark = app.preferences.dark;
+  host.press(Key::t);
+  EXPECT_NE(app.preferences.dark, dark);
+  host.press(Key::f, false, true);
+  EXPECT_TRUE(app.finding() && !app.show_lab);
+  host.press(Key::escape);
+  host.frame();
+  EXPECT_FALSE(app.finding());
+  host.press(Key::x), host.press(Key::e);
+  EXPECT_TRUE(app.lecture && !app.show_lab);
+  host.press(Key::x), host.press(Key::escape);
+  EXPECT_TRUE(!app.show_lab);
+}
+
 /// Of what people make of a window at the edge of their screen.
 class VerySmall : public testing::TestWithParam<std::pair<int, int>> {
  protected:

@@ -221,8 +221,8 @@ void App::top_bar(const Area& area) {
   if (button("Open", "Open a scene or a recording (Ctrl-O)")) ask(Asking::open);
   if (button("Save", "Save the scene, the recording, a picture or the replay (Ctrl-S)")) ask(Asking::save);
   if (button("Find", "Find a step (Ctrl-F)")) open_find_bar();
-  if (button("Measure", "Speed against accuracy, stability where methods fail (X)")) show_lab = !show_lab;
-  if (all_fit && button("Explain", "Big text, for a hall (E)")) lecture = !lecture;
+  if (button("Measure", "Speed against accuracy, stability where methods fail (X)")) show_lab = !show_lab, session.playing = false;
+  if (all_fit && button("Explain", "Big text, for a hall (E)")) lecture = show_lab || !lecture, show_lab = false;
   if (all_fit && button(theme.dark ? "Light" : "Dark", "The other colours (T)")) preferences.dark = !preferences.dark;
   if (button("Keys", "All keys (?)")) show_keys = !show_keys;
   ImGui::PopStyleColor();

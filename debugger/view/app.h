@@ -89,6 +89,7 @@ class App {
   void step_keys(bool shift, bool control);
   void control_keys(bool shift);
   void view_keys();
+  void window_keys();
   void top_bar(const Area& area);
   void title_and_chips(const Area& area);
   void left_panel(const Area& area);

@@ -11,6 +11,7 @@ namespace gjkdbg {
 
 void App::open_find_bar() {
   find_.open = find_.wants_focus = true;
+  show_lab = false;  // it is steps that are found
   forget_found();
 }
 
@@ -76,10 +77,10 @@ const char* first_that_fits(std::initializer_list<const char*> texts, float room
 /// Above the views, so that what the step is about stays in sight; across the window where they are too narrow for it, or not shown.
 void App::find_bar() {
   if (!session.is_open()) find_.open = false;
-  if (!find_.open) return;
+  if (!find_.open || show_lab) return;
   if (find_.opened != session.opened()) forget_found();
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  const bool above_views = !show_lab && views_.width > theme.px(330);
+  const bool above_views = views_.width > theme.px(330);
   const float room = above_views ? views_.width - theme.px(12) : window.x - theme.px(20), width = std::min(theme.px(700), room);
   ImGui::SetNextWindowPos({above_views ? views_.x + views_.width / 2 : window.x / 2, theme.px(50)}, ImGuiCond_Always, {0.5f, 0});
   ImGui::SetNextWindowSize({width, 0});

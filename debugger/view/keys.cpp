@@ -25,12 +25,12 @@ void App::step_keys(bool shift, bool control) {
 }
 
 void App::control_keys(bool shift) {
-  if (key_pressed(Key::z) && session.can_undo()) session.undo(), fit_what_has_left();
-  if (key_pressed(Key::y) && session.can_redo()) session.redo(), fit_what_has_left();
+  if (key_pressed(Key::z) && session.can_undo() && !show_lab) session.undo(), fit_what_has_left();
+  if (key_pressed(Key::y) && session.can_redo() && !show_lab) session.redo(), fit_what_has_left();
   if (key_pressed(Key::o)) ask(Asking::open);
   if (key_pressed(Key::s)) ask(Asking::save);
   if (key_pressed(Key::f)) open_find_bar();
-  if (key_pressed(Key::g)) ask(Asking::go_to);
+  if (key_pressed(Key::g)) show_lab = false, ask(Asking::go_to);
   if (key_pressed(Key::q)) quit = true;
   if (key_pressed(Key::c)) {
     const SceneFile kept = session.scene_to_keep();
@@ -59,30 +59,39 @@ void App::keys() {
   }
   const bool popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   if (rail_open_ && popup && key_pressed(Key::escape)) return ImGui::ClosePopupToLevel(0, true);
-  if (find_.open && !popup && key_pressed(Key::escape)) {
+  if (find_.open && !show_lab && !popup && key_pressed(Key::escape)) {
     find_.open = false;
     return;
   }
-  find_keys();
-  step_keys(shift_held(), control_held());
+  if (!show_lab) find_keys(), step_keys(shift_held(), control_held());
   if (control_held()) return control_keys(shift_held());
+  if (key_pressed(Key::x)) show_lab = !show_lab, session.playing = false;
+  else if (show_lab && key_pressed(Key::escape) && !show_keys && !popup) show_lab = false;
+  else if (show_lab && key_pressed(Key::e)) show_lab = false, lecture = false;  // which it is turned to below
+  else if (show_lab) return window_keys();  // nothing happens to a scene that is not seen
   if (key_pressed(Key::home)) session.playing = false, session.go_to(0);
   if (key_pressed(Key::end)) session.playing = false, session.go_to(session.count() - 1);
   if (key_pressed(Key::space)) session.toggle_play();
-  if (key_pressed(Key::x)) show_lab = !show_lab;
-  if (show_lab && key_pressed(Key::escape)) show_lab = false;
   if (key_pressed(Key::b)) session.toggle_breakpoint();
   if (key_pressed(Key::m) && !session.add_bookmark()) note("all nine bookmarks are taken");
   if (key_pressed(Key::left_bracket)) session.loop = true, session.loop_from = session.step();
   if (key_pressed(Key::right_bracket)) session.loop = true, session.loop_to = session.step();
-  if (key_pressed(Key::page_down) && !show_lab) open_beside(1);
-  if (key_pressed(Key::page_up) && !show_lab) open_beside(-1);
+  if (key_pressed(Key::page_down)) open_beside(1);
+  if (key_pressed(Key::page_up)) open_beside(-1);
   for (int i = 1; i <= 9; ++i)
     if (key_pressed(static_cast<Key>(static_cast<int>(Key::digit_1) + i - 1)) && session.bookmarks.contains(i)) session.go_to(session.bookmarks[i]);
   view_keys();
 }
 
+/// Whatever is shown.
+void App::window_keys() {
+  if (key_pressed(Key::t)) preferences.dark = !preferences.dark;
+  if (key_pressed(Key::slash) || key_pressed(Key::f1)) show_keys = !show_keys;
+  if (key_pressed(Key::escape)) show_keys = false, message.clear();
+}
+
 void App::view_keys() {
+  window_keys();
   if (key_pressed(Key::f)) {
     if (shift_held()) fitted_ = 0;  // and from where they looked at first
     fit_views();
@@ -91,10 +100,8 @@ void App::view_keys() {
   if (key_pressed(Key::v)) preferences.layout = static_cast<Layout>((static_cast<int>(preferences.layout) + 1) % 4);
   if (key_pressed(Key::l)) preferences.linked_cameras = !preferences.linked_cameras;
   if (key_pressed(Key::g)) left_tab = left_tab == LeftTab::gallery && (wide_ || rail_open_) ? LeftTab::scene : LeftTab::gallery, rail_opens_ = left_tab;
-  if (key_pressed(Key::t)) preferences.dark = !preferences.dark;
   if (key_pressed(Key::e)) lecture = !lecture;
-  if (key_pressed(Key::slash) || key_pressed(Key::f1)) show_keys = !show_keys;
-  if (key_pressed(Key::escape)) show_keys = lecture = false, settings.selected.reset(), message.clear();
+  if (key_pressed(Key::escape)) lecture = false, settings.selected.reset();
   const double right_angle = std::numbers::pi / 2;
   const auto look = [&](double yaw, double pitch) {
     for (Camera* c : {&world_camera, &difference_camera}) c->yaw = yaw, c->pitch = pitch;
