@@ -189,6 +189,19 @@ TEST(Contact, WhatStandsStandsStill) {
   }
 }
 
+/// Of an overlap a step takes a share away, however many contact points it has: each of a box's four points would take it again.
+TEST(Contact, ManyPointsPutBodiesApartNoFartherThanOne) {
+  const auto risen = [](const std::string& shape) {
+    const auto scene = scene_of(R"("query": "simulate", "gravity": [0, 0, 0], "time_step": 0.01, "steps": 2)",
+                                placed(R"({"type": "box", "half_extents": [5, 0.5, 5]})", "[0, -0.5, 0]", "", R"(, "static": true)") + ", " + placed(shape, "[0, 0.45, 0]"));
+    return record(scene).result.bodies.value()[1].position[1] - 0.45;
+  };
+  const double ball = risen(R"({"type": "sphere", "radius": 0.5})");
+  EXPECT_GT(ball, 0.01);
+  EXPECT_LT(ball, deep);
+  for (const std::string& shape : {cylinder, std::string(R"({"type": "box", "half_extents": [0.5, 0.5, 0.5]})")}) EXPECT_NEAR(risen(shape), ball, 1e-3) << shape;
+}
+
 /// On single points the upper log rocked end over end and drove the lower ones apart.
 TEST(Contact, APileOfLogsStaysLevel) {
   const std::string rough = R"(, "friction": 0.6)", along_z = R"({"axis": [1, 0, 0], "angle": 90})";
