@@ -202,6 +202,19 @@ TEST(Contact, ManyPointsPutBodiesApartNoFartherThanOne) {
   for (const std::string& shape : {cylinder, std::string(R"({"type": "box", "half_extents": [0.5, 0.5, 0.5]})")}) EXPECT_NEAR(risen(shape), ball, 1e-3) << shape;
 }
 
+/// Where EPA came to its limit the normal may be another: a bounce along it could gain energy. Such a contact ends the approach and no more.
+TEST(Contact, WhatIsNotKnownToTouchThatWayDoesNotBounce) {
+  const auto rise = [](int max_iterations) {
+    const std::string bouncing = R"(, "restitution": 1)", floor = placed(R"({"type": "box", "half_extents": [5, 0.5, 5]})", "[0, -0.5, 0]", "", R"(, "static": true)" + bouncing);
+    const std::string egg = placed(R"({"type": "ellipsoid", "radii": [0.5, 0.5, 0.4]})", "[0.1, 0.3, 0.2]", R"({"axis": [1, 2, 3], "angle": 40})", R"(, "velocity": [0, -1, 0])" + bouncing);
+    const Result r = record(scene_of(R"("query": "simulate", "gravity": [0, 0, 0], "time_step": 0.01, "steps": 1, "method": {"max_iterations": )" + std::to_string(max_iterations) + "}", floor + ", " + egg)).result;
+    EXPECT_EQ(r.status, max_iterations < 10 ? "contact_unknown" : "completed");
+    return (*r.bodies)[1].velocity[1];
+  };
+  for (const int limit : {4, 6, 8}) EXPECT_NEAR(rise(limit), 0, 0.05) << limit;
+  EXPECT_GT(rise(512), 0.9);
+}
+
 /// On single points the upper log rocked end over end and drove the lower ones apart.
 TEST(Contact, APileOfLogsStaysLevel) {
   const std::string rough = R"(, "friction": 0.6)", along_z = R"({"axis": [1, 0, 0], "angle": 90})";
