@@ -421,6 +421,12 @@ class Program(unittest.TestCase):
         self.assertEqual(run("render", self.scene, "--step", 3, "-o", svg).returncode, 0)
         root = xml.etree.ElementTree.fromstring(svg.read_text())
         self.assertGreater(len(list(root.iter("{http://www.w3.org/2000/svg}line"))), 20)
+        # A long sentence does not run out of the picture, and nothing of it is lost.
+        self.assertEqual(run("render", "accelerated-newton", "--step", 3, "-o", svg, "--width", 640, "--height", 480).returncode, 0)
+        texts = [t for t in xml.etree.ElementTree.fromstring(svg.read_text()).iter("{http://www.w3.org/2000/svg}text") if t.get("x") == "16.00" and t.get("font-size") == "12.00"]
+        self.assertGreater(len(texts), 3)
+        self.assertTrue(all(len(t.text) * 7.2 <= 640 - 32 and float(t.get("y")) <= 480 for t in texts))
+        self.assertRegex(" ".join(t.text for t in texts), "^The curvature of the bodies .* at least that far apart\\.$")
         by_sat = self.path / "sat.svg"
         self.assertEqual(run("render", self.scene, "--step", 3, "--method", "sat", "-o", by_sat).returncode, 0)
         self.assertIn("Support along an axis", by_sat.read_text())

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <csignal>
 #include <cstdlib>
@@ -320,7 +321,9 @@ struct Render {
     const Palette& palette = light ? light_palette : dark_palette;
     ViewSettings settings;
     settings.body_letters = true;
-    const double w = width / 2.0, h = height - 60.0;
+    const Explanation e = explain(session.recording(), session.frame());
+    const std::vector<std::string> lines = svg_lines(e.text, width - 32.0, 12);
+    const double w = width / 2.0, line = 16, h = std::max(height / 3.0, height - 44 - line * static_cast<double>(lines.size()));
     const auto hex = [](Colour c) {
       char text[8];
       std::snprintf(text, sizeof text, "#%02x%02x%02x", c.r, c.g, c.b);
@@ -337,12 +340,14 @@ struct Render {
       out += "<clipPath id=\"" + clip + "\"><rect x=\"" + std::to_string(x) + "\" y=\"0\" width=\"" + std::to_string(w) + "\" height=\"" + std::to_string(h) + "\"/></clipPath>\n<g clip-path=\"url(#" +
              clip + ")\">\n" + to_svg(flatten(make(session.meshes(), session.recording(), session.frame(), settings, palette, projection), projection), 14) + "</g>\n";
     }
-    const Explanation e = explain(session.recording(), session.frame());
-    std::vector<FlatItem> caption(2);
-    for (FlatItem& item : caption) item.kind = FlatItem::Kind::label;
-    caption[0].points = {{16, h + 8, 0}}, caption[0].text = e.title, caption[0].colour = palette.text;
-    caption[1].points = {{16, h + 30, 0}}, caption[1].text = e.text, caption[1].colour = palette.text_soft;
-    write_output(output, out + to_svg({caption[0]}, 15) + to_svg({caption[1]}, 12) + "</svg>\n");
+    const auto text = [](const std::string& words, double y, Colour colour) {
+      FlatItem item;
+      item.kind = FlatItem::Kind::label, item.points = {{16, y, 0}}, item.text = words, item.colour = colour;
+      return item;
+    };
+    out += to_svg({text(e.title, h + 8, palette.text)}, 15);
+    for (std::size_t i = 0; i < lines.size(); ++i) out += to_svg({text(lines[i], h + 30 + line * static_cast<double>(i), palette.text_soft)}, 12);
+    write_output(output, out + "</svg>\n");
     return exit_done;
   }
 };

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <sstream>
 
 namespace gjkdbg {
 namespace {
@@ -296,6 +297,18 @@ std::string to_svg(const std::vector<FlatItem>& items, double font_size) {
     }
   }
   return out;
+}
+
+std::vector<std::string> svg_lines(const std::string& sentence, double width, double font_size) {
+  const auto letters = [](const std::string& text) { return std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }); };  // of UTF-8, its first bytes
+  const auto room = static_cast<std::ptrdiff_t>(width / (0.6 * font_size));
+  std::vector<std::string> lines;
+  std::istringstream words(sentence);
+  for (std::string word; words >> word;) {
+    if (!lines.empty() && letters(lines.back()) + 1 + letters(word) <= room) lines.back() += " " + word;
+    else lines.push_back(word);
+  }
+  return lines;
 }
 
 }  // namespace gjkdbg

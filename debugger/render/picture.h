@@ -83,5 +83,7 @@ std::vector<FlatItem> flatten(const Picture& picture, const Projection& projecti
 
 /// As an SVG fragment (no document element).
 std::string to_svg(const std::vector<FlatItem>& items, double font_size);
+/// A sentence in lines that are no wider than `width` in an SVG's font, which is not known: letters are taken to be 0.6 of its size wide, as DejaVu's are. A word longer than that has a line of its own.
+std::vector<std::string> svg_lines(const std::string& sentence, double width, double font_size);
 
 }  // namespace gjkdbg
