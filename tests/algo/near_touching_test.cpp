@@ -82,5 +82,44 @@ TEST(NearTouching, WhereGjkStallsMprTellsYesFromNo) {
   EXPECT_TRUE(check(recording).empty());
 }
 
+/// Voronoi regions take the origin for enclosed, and EPA found it outside. Signed volumes tell that it is not enclosed.
+TEST(NearTouching, WhatOnlyVoronoiRegionsCallEnclosedIsMeasured) {
+  Scene scene = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "penetration", "bodies": [
+    {"shape": {"type": "segment", "points": [[-1.8934744934578682e-06, 1.2067100261247066e-18, 4.552827766589452e-18], [1.4576262392832303e-06, -9.376534161231788e-19, -1.7576601169837112e-19]]}},
+    {"shape": {"type": "box", "min": [2.7206393053246414e-10, -4.895560106691007e-10, 8.004771860045334e-11], "max": [8.488006001172677e-10, -9.299087041231268e-11, 1.7535811659732983e-09]}}]})", {}).scene;
+  for (Body& b : scene.bodies) {
+    b.pose.position = Eigen::Vector3d(0.00012749767245769274, 3.4242302721835682, 0.0007715480729853134);
+    b.pose.matrix = resolve(Quaternion{{-0.6433279351390332, 0.21135090839270734, 0.6688881789072949, -0.30667338572071734}}, 3).matrix;
+  }
+  const Result truth = solve(scene, resolve_settings({}, scene));
+  Method m;
+  m.closest_point = ClosestPoint::voronoi, m.scalar = Scalar::float_precision;
+  const Result r = solve(scene, resolve_settings(m, scene));
+  EXPECT_EQ(r.status, "converged");
+  EXPECT_LE(*r.lower_bound, *truth.upper_bound);
+  EXPECT_GE(*r.upper_bound, *truth.lower_bound);
+}
+
+/// GJK cannot tell a gap from touching in single precision, and EPA finds the origin outside, often beside the nearest face: that face's plane is nearer than the face.
+TEST(NearTouching, WhereEpaFindsAGapTheBoundsHoldIt) {
+  RandomScenes random(12);
+  Method single;
+  single.scalar = Scalar::float_precision;
+  int separated = 0;
+  for (int i = 0; i < pairs_asked(2000); ++i) {
+    Scene scene = random.scene(3, i % 2 ? Family::general : Family::slivers, true);
+    const Result far = solve(scene, resolve_settings({}, scene));
+    scene.bodies[1].pose.position += (1e-7 * size_of(scene) - *far.signed_distance) * *far.normal;
+    const Result truth = solve(scene, resolve_settings({}, scene)), r = solve(scene, resolve_settings(single, scene));
+    separated += r.status == "separated";
+    if (r.status != "separated") continue;
+    EXPECT_LE(*r.lower_bound, *truth.upper_bound) << i;
+    EXPECT_GE(*r.upper_bound, *truth.lower_bound) << i;
+  }
+  if (pairs_asked(2000) >= 2000) {
+    EXPECT_GT(separated, 100);
+  }
+}
+
 }  // namespace
 }  // namespace gjkdbg
