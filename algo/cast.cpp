@@ -24,7 +24,7 @@ class Caster : MovingBodies {
     for (const Body& body : bodies_) parts_.push_back(convex_parts(body.shape));
     double size = 0;
     for (const double r : reach_) size = std::max(size, r);
-    for (const Body& body : bodies_) size = std::max(size, (body.pose.position - bodies_[0].pose.position).norm());
+    for (const Body& body : bodies_) size = std::max(size, norm_of_any_size(body.pose.position - bodies_[0].pose.position));
     target_ = std::max(settings.tolerance, 4e-15) * std::max(size, 1e-300);
   }
 
@@ -273,12 +273,12 @@ class Caster : MovingBodies {
   }
 
   bool at_rest() const {
-    return std::all_of(bodies_.begin(), bodies_.end(), [&](const Body& body) { return body.motion->velocity.norm() <= 1e-12 * scene_speed(); });
+    return std::all_of(bodies_.begin(), bodies_.end(), [&](const Body& body) { return norm_of_any_size(body.motion->velocity) <= 1e-12 * scene_speed(); });
   }
 
   double scene_speed() const {
     double s = 0;
-    for (const Body& body : scene_.bodies) s = std::max(s, body.motion->velocity.norm());
+    for (const Body& body : scene_.bodies) s = std::max(s, norm_of_any_size(body.motion->velocity));
     return s;
   }
 

@@ -149,7 +149,7 @@ class Gjk {
       result_.simplex.add(point);
     }
     places_ = result_.simplex.places;
-    accept(of_list([](const V* w, int size) { return SubAlgorithm::closest(w, size); }));
+    accept(of_list(opinion));
     if constexpr (leads) leading_.keep(v());
   }
 
@@ -166,12 +166,19 @@ class Gjk {
       if (nearest.places != 0) [[likely]] return accept(nearest);
     }
     places_ |= 1u << newest_;
-    return accept(of_list([](const V* w, int size) { return SubAlgorithm::closest(w, size); }));
+    return accept(of_list(opinion));
   }
   /// The second opinion, in twice the precision.
   [[gnu::always_inline]] bool reduce_again() {
     places_ |= 1u << newest_;
     return accept(of_list([](const V* w, int size) { return WideClosestPoint<D, S>::of_boundary(w, size); }));
+  }
+  /// That the origin is inside is a proof, and has to be exact: where another sub-algorithm says so, signed volumes have the last word.
+  static Feature opinion(const V* w, int size) {
+    Feature feature = SubAlgorithm::closest(w, size);
+    if constexpr (!std::is_same_v<SubAlgorithm, SignedVolumes<D, S>>)
+      if (feature.enclosed) feature = SignedVolumes<D, S>::closest(w, size);
+    return feature;
   }
   template <class Closest>
   [[gnu::always_inline]] Feature of_list(Closest closest) const {

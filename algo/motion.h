@@ -50,6 +50,12 @@ struct TurningBound {
 /// largest |r|.
 TurningBound turning_bound(const Body& body, const AnyVector& angular_velocity, const AnyVector& n, double reach);
 
+/// The square of a length below 1e-154 vanishes: such vectors are measured in units of 2^-600, which rounds nothing.
+inline double norm_of_any_size(const AnyVector& v) {
+  const double most = v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0;
+  return most < 1e-140 ? (v * 0x1p600).norm() * 0x1p-600 : v.norm();
+}
+
 /// The settings for the static queries inside a cast or a simulation.
 Settings static_settings(const Settings& settings);
 

@@ -23,7 +23,7 @@ class MovingBodies {
   bool moves_against(int i, int j) const { return turns(i) || turns(j) || velocity(i) != velocity(j); }
 
   double speed(const Pair& p) const {
-    double s = velocity(p.first).norm() + velocity(p.second).norm();
+    double s = norm_of_any_size(velocity(p.first)) + norm_of_any_size(velocity(p.second));
     for (const int i : {p.first, p.second}) s += spin(i).norm() * reach_[static_cast<std::size_t>(i)];
     return s;
   }

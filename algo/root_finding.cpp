@@ -43,7 +43,7 @@ double RootFinding::turning(const Gap& gap, const AnyVector& last_normal, double
   const double f = std::atan2(sine, cosine) / since, stretch = std::min(left_, 0.05 / f);
   const Body now_a = moved(a_, time_, dimension_), now_b = moved(b_, time_, dimension_);
   const AnyVector x = now_b.pose.position - now_a.pose.position, v = b_.motion->velocity - a_.motion->velocity;
-  double closing = -(f * m.dot(x) + n.dot(v)) + stretch * (f * f * (x.norm() + v.norm() * stretch) + 2 * f * v.norm());
+  double closing = -(f * m.dot(x) + n.dot(v)) + stretch * (f * f * (norm_of_any_size(x) + norm_of_any_size(v) * stretch) + 2 * f * norm_of_any_size(v));
   for (const auto& [body, reach] : {std::pair(&a_, reach_a_), std::pair(&b_, reach_b_)}) {
     const AnyVector relative = relative_spin(*body, n, m, f);
     closing += reach * (across(relative, n).norm() + relative.norm() * f * stretch);

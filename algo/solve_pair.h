@@ -7,21 +7,20 @@
 //   contact       as penetration, then the contact points (algo/contact.h)
 //
 // MPR and SAT tell how deep, but not how far: where they find a gap and its length is asked for, GJK measures it. Projections tell how far,
-// but not how deep.
+// but not how deep. Where GJK stalls with bounds on both sides of touching and only yes or no is asked for, MPR is asked, which looks from the middle of the difference and
+// not from the origin: a portal that rounding leaves no room near the origin may be told from there.
 #pragma once
 
 #include "algo/boolean_gjk.h"
 #include "algo/box_sat.h"
 #include "algo/epa.h"
-#include "algo/gjk.h"
-#include "algo/johnson.h"
 #include "algo/lent.h"
 #include "algo/mpr.h"
 #include "algo/polygon_sat.h"
 #include "algo/projections.h"
 #include "algo/result.h"
+#include "algo/run_gjk.h"
 #include "algo/sat.h"
-#include "algo/voronoi.h"
 #include "algo/warm_start.h"
 #include "algo/world_trace.h"
 
@@ -69,11 +68,12 @@ class PairSolver {
       for (int i = 0; i < warm_->size; ++i) kept[i] = difference_.kept(warm_->a[i], warm_->b[i]);
       options.kept = {kept.data(), static_cast<std::size_t>(warm_->size)};
     }
-    run_gjk(options);
+    run_gjk(difference_, settings_.closest_point, options, trace_, gjk_);
     if (warm_) keep_simplex();
     result_->status = word_of(gjk_.status);
     result_->iterations += gjk_.iterations;
     if (query == Query::intersect) {
+      if (undecided(gjk_, difference_.radius()) && mpr_decides(query)) return;
       result_->intersecting = overlapping();
     } else if (query == Query::distance) {
       distance();
@@ -86,14 +86,6 @@ class PairSolver {
   S tolerance_for(Query query) const {
     const S tolerance = static_cast<S>(settings_.tolerance);
     return query == Query::intersect ? std::min(tolerance, GjkOptions<D, S>::decisive) : tolerance;
-  }
-
-  void run_gjk(const GjkOptions<D, S>& options) {
-    switch (settings_.closest_point) {
-      case ClosestPoint::johnson: return gjk<Johnson<D, S>>(difference_, options, trace_, gjk_);
-      case ClosestPoint::voronoi: return gjk<VoronoiRegions<D, S>>(difference_, options, trace_, gjk_);
-      case ClosestPoint::signed_volumes: return gjk<SignedVolumes<D, S>>(difference_, options, trace_, gjk_);
-    }
   }
 
   /// Points that were there before keep their numbers: they would drift if they were turned there and back.

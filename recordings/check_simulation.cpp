@@ -9,7 +9,7 @@
 #include "algo/motion.h"
 #include "recordings/check_context.h"
 #include "recordings/free_spin.h"
-#include "shapes/mass.h"
+#include "recordings/simulated_bodies.h"
 
 namespace gjkdbg {
 namespace {
@@ -17,24 +17,11 @@ namespace {
 using V3 = Eigen::Vector3d;
 using M3 = Eigen::Matrix3d;
 
-/// A body at a time: its centre of mass and how that moves.
-struct Moving {
-  V3 place = V3::Zero(), velocity = V3::Zero(), spin = V3::Zero();
-  M3 rotation = M3::Identity();
-};
-
-struct SimulationCheck {
+struct SimulationCheck : SimulatedBodies {
   CheckContext& c;
-  const Scene& scene;
-  const SceneMotion& motion;
-  const V3 gravity;
-  std::vector<MassProperties> mass;
 
-  explicit SimulationCheck(CheckContext& context) : c(context), scene(c.recording.scene.scene), motion(*scene.motion), gravity(in_space(motion.gravity)) {
-    for (const Body& body : scene.bodies) mass.push_back(mass_properties(body.shape, scene.dimension));
-  }
+  explicit SimulationCheck(CheckContext& context) : SimulatedBodies(context.recording.scene.scene), c(context) {}
 
-  const Motion& of(std::size_t i) const { return *scene.bodies[i].motion; }
   bool exists(const Edge& pair) const {
     const int n = static_cast<int>(scene.bodies.size());
     return pair[0] != pair[1] && std::min(pair[0], pair[1]) >= 0 && std::max(pair[0], pair[1]) < n;
@@ -46,25 +33,6 @@ struct SimulationCheck {
     for (const Body& body : scene.bodies) heaviest = std::max(heaviest, body.motion->is_static ? 0 : body.motion->mass);
     return 1e-12 * std::min(1.0, heaviest);
   }
-
-  Moving moving(const recorded::State& state, std::size_t i) const {
-    const recorded::BodyState& b = state.bodies[i];
-    Moving m;
-    if (b.orientation.size() == 4) m.rotation = Eigen::Quaterniond(b.orientation[0], b.orientation[1], b.orientation[2], b.orientation[3]).normalized().toRotationMatrix();
-    if (b.angular_velocity.size() == 3) m.spin = V3(b.angular_velocity[0], b.angular_velocity[1], b.angular_velocity[2]);
-    if (b.angular_velocity.size() == 1) m.spin = V3(0, 0, b.angular_velocity[0]);
-    m.spin *= M_PI / 180;
-    const V3 arm = m.rotation * mass[i].center;
-    m.place = in_space(b.position) + arm, m.velocity = in_space(b.velocity) + m.spin.cross(arm);
-    return m;
-  }
-
-  /// Of the body in its own axes. In the plane it turns about the axis across.
-  M3 inertia(std::size_t i) const {
-    const M3 all = of(i).mass * mass[i].inertia;
-    return scene.dimension == 2 ? M3(V3(0, 0, all(2, 2)).asDiagonal()) : all;
-  }
-  V3 angular_momentum(const Moving& m, std::size_t i) const { return m.rotation * inertia(i) * m.rotation.transpose() * m.spin; }
 
   /// What the integrator may add to the spins' energy in a step: bodies turn with the angular momentum that the impulses leave.
   double gained_by_spin(const recorded::State& before, const recorded::State& now) const {
@@ -199,17 +167,9 @@ struct SimulationCheck {
 
   /// Energy and momentum are what places and velocities make them.
   void sums(const recorded::State& state) {
-    double energy = 0, scale = 0, speed = 0;
-    V3 momentum = V3::Zero();
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-      if (of(i).is_static) continue;
-      const Moving m = moving(state, i);
-      const double moves = of(i).mass * m.velocity.squaredNorm() / 2, turns = m.spin.dot(angular_momentum(m, i)) / 2, falls = -of(i).mass * gravity.dot(m.place);
-      energy += moves + turns + falls, scale += moves + std::abs(turns) + std::abs(falls);
-      momentum += of(i).mass * m.velocity, speed += of(i).mass * m.velocity.norm();
-    }
-    if (!std::isfinite(scale) || !(std::abs(state.energy - energy) <= 1e-6 * scale + least())) c.find("wrong-state", "The energy is given as " + text_of(state.energy) + "; places and velocities make it " + text_of(energy) + ".");
-    if (!((in_space(state.momentum) - momentum).stableNorm() <= 1e-9 * speed + least())) c.find("wrong-state", "The momentum is given as " + text_of(state.momentum) + "; the velocities make it " + text_of(AnyVector(momentum)) + ".");
+    const SumsOfMotion right = sums_of(state);
+    if (!std::isfinite(right.energy_scale) || !(std::abs(state.energy - right.energy) <= 1e-6 * right.energy_scale + least())) c.find("wrong-state", "The energy is given as " + text_of(state.energy) + "; places and velocities make it " + text_of(right.energy) + ".");
+    if (!((in_space(state.momentum) - right.momentum).stableNorm() <= 1e-9 * right.momentum_scale + least())) c.find("wrong-state", "The momentum is given as " + text_of(state.momentum) + "; the velocities make it " + text_of(AnyVector(right.momentum)) + ".");
   }
 
   /// A contact is where both bodies are, at the time of the step, and its impulse pushes along its normal: apart.

@@ -1,5 +1,6 @@
 #include "shapes/world_support.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "shapes/convex.h"
@@ -14,11 +15,16 @@ struct WorldSupport::Any {
 
 template <int D>
 struct WorldSupport::Of final : WorldSupport::Any {
+  const double scale;  ///< of the shape's lengths while its support is looked for
   Convex<D, double> convex;
   Matrix<D, double> rotation;
   Vector<D, double> position;
 
-  explicit Of(const Body& body) : convex(body.shape), rotation(body.pose.matrix), position(body.pose.position) {}
+  /// The support of an ellipsoid has squares of lengths, which vanish below 1e-154: small shapes are brought near 1, by a power of two. (Below the normal numbers 2^1000
+  /// is near enough, and a number.)
+  static double scale_of(double size) { return size > 0 && size < 1e-100 ? std::ldexp(1.0, std::min(-std::ilogb(size), 1000)) : 1; }
+
+  explicit Of(const Body& body) : scale(scale_of(size_of(body.shape))), convex(body.shape, scale), rotation(body.pose.matrix), position(body.pose.position) {}
 
   AnyVector support(const AnyVector& direction, bool whole) const override {
     Vector<D, double> d = direction;
@@ -28,11 +34,12 @@ struct WorldSupport::Of final : WorldSupport::Any {
       const int exponent = std::ilogb(most);
       for (int i = 0; i < D; ++i) d[i] = std::ldexp(d[i], -exponent);
     }
-    Vector<D, double> p = rotation * (convex.reference() + convex.support(rotation.transpose() * d)) + position;
-    if (whole && convex.radius() > 0 && !d.isZero(0)) p += convex.radius() * d.stableNormalized();
+    const Vector<D, double> from_position = rotation * (convex.reference() + convex.support(rotation.transpose() * d));
+    Vector<D, double> p = from_position / scale + position;
+    if (whole && convex.radius() > 0 && !d.isZero(0)) p += radius() * d.stableNormalized();
     return p;
   }
-  double radius() const override { return convex.radius(); }
+  double radius() const override { return convex.radius() / scale; }
 };
 
 WorldSupport::WorldSupport(const Body& body, int dimension) {

@@ -80,6 +80,13 @@ struct Explain : ExplainMethods {
     return std::string(gap <= recording.settings.tolerance * size ? " are within the tolerance of each other" : " are as near as rounding lets them come") + ", and the signed distance lies between them";
   }
 
+  /// Whether the same pair is searched once more (algo/run_gjk.h): in a motion, and between the parts of meshes, what follows may be another pair's.
+  bool begins_again() const {
+    const Settings& s = recording.settings;
+    const std::size_t next = frame.step + 1;
+    return s.closest_point != ClosestPoint::signed_volumes && recording.scene.scene.bodies.size() == 2 && next < recording.events.size() && std::holds_alternative<recorded::GjkBegan>(recording.events[next]);
+  }
+
   std::string sentence(const recorded::GjkEnded& e) const {
     switch (e.status) {
       case GjkStatus::converged:
@@ -89,7 +96,9 @@ struct Explain : ExplainMethods {
       case GjkStatus::within_radius: return "The cores are apart, but nearer than the radii around them: the bodies overlap, and no more was asked.";
       case GjkStatus::enclosed: return "The simplex encloses the origin: some point of body " + a() + " is also a point of body " + b() + ". The " + bodies() + " overlap.";
       case GjkStatus::touching: return std::string("The origin lies on the simplex, within rounding: on a vertex, an edge or a face. ") + (frame.step + 1 == recording.events.size() ? "The bodies touch or overlap, and no more was asked." : "Whether this is touch or overlap, EPA will tell.");
-      case GjkStatus::stalled: return "|v| no longer falls: the precision is used up, or the method's own rule stops it. The bounds say how much is known.";
+      case GjkStatus::stalled:
+        return "|v| no longer falls: the precision is used up, or the method's own rule stops it. The bounds say how much is known." +
+               std::string(begins_again() ? " They leave open whether the bodies touch, so signed volumes, which have exact signs to fall back on, begin once more." : "");
       case GjkStatus::iteration_limit: return "The iteration limit is reached before the bounds met. This is no answer; the bounds say how much is known.";
       case GjkStatus::rule_met: return "The stopping rule of the method is met. Bounds that have not met say that it stopped early.";
       case GjkStatus::aborted: return "The solver ended without an answer.";

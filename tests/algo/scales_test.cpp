@@ -131,5 +131,25 @@ TEST(Scales, AMeshIsNotToldApartWhileATriangleIsOpen) {
   }
 }
 
+/// Below 1e-154 squares vanish: speeds that were lost made the tenth digit of the time another, and the support of an ellipsoid its middle, so that bodies missed each other.
+TEST(Scales, ACastTakesTheSameTimeAtEverySize) {
+  const Scene scene = scene_with(R"("dimension": 3, "query": "cast", "bodies": [
+    {"shape": {"type": "sum", "of": [{"type": "ellipsoid", "radii": [0.5, 0.25, 1]}, {"type": "box", "half_extents": [0.1, 0.25, 0.15]}]},
+     "velocity": [2, -0.3, 0.1], "angular_velocity": [40, 110, -70]},
+    {"shape": {"type": "ellipsoid", "radii": [0.6, 0.2, 0.4]}, "pose": {"position": [2.5, 0.1, -0.1]}, "velocity": [-0.6, 0.1, 0], "angular_velocity": [-80, 50, 20]}])");
+  for (const MethodName name : {MethodName::conservative_advancement, MethodName::root_finding}) {
+    const Result r = answered(scene, named(name));
+    EXPECT_TRUE(r.intersecting);
+    for (const int exponent : {-500, -530, -700, -900}) {
+      Scene tiny = scene;
+      for (Body& body : tiny.bodies) {
+        body.shape = scaled(body.shape, std::ldexp(1.0, exponent));
+        body.pose.position *= std::ldexp(1.0, exponent), body.motion->velocity *= std::ldexp(1.0, exponent);
+      }
+      EXPECT_EQ(answered(tiny, named(name)).time, r.time) << word_of(name) << " " << exponent;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace gjkdbg
