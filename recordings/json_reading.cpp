@@ -172,7 +172,7 @@ bool parse_fast(std::string_view text, Json& json) {
 Json parse_carefully(std::string_view text, std::size_t first_line = 1) {
   if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos)  // which the parser takes for the end
     throw Error("bad-json", "is no JSON: a NUL byte", line_and_column(text, nul + 1, first_line));
-  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) throw Error("bad-json", "is no JSON: there is nothing in it");
+  if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) throw Error("bad-json", "is no JSON: there is nothing in it", line_and_column(text, text.size() + 1, first_line));
   try {
     JsonBuilder builder(text, first_line);
     Json::sax_parse(text.begin(), text.end(), &builder);
