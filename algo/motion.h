@@ -50,7 +50,8 @@ struct TurningBound {
 /// largest |r|.
 TurningBound turning_bound(const Body& body, const AnyVector& angular_velocity, const AnyVector& n, double reach);
 
-/// The square of a length below 1e-154 vanishes: such vectors are measured in units of 2^-600, which rounds nothing.
+/// The square of a length below 1e-154 vanishes: such vectors are measured in units of 2^-600, which rounds nothing. (Eigen's stableNorm divides by the largest number, and
+/// that rounds: the same bodies in another unit would meet at another time.)
 inline double norm_of_any_size(const AnyVector& v) {
   const double most = v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0;
   return most < 1e-140 ? (v * 0x1p600).norm() * 0x1p-600 : v.norm();
