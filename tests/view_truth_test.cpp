@@ -98,5 +98,18 @@ TEST(Digits, TellTwoPointsApart) {
   EXPECT_EQ(digits_that_tell(AnyVector(Eigen::Vector2d(1, 1)), AnyVector(Eigen::Vector2d(1, 1))), 4);
 }
 
+/// A stall that leaves yes or no open is not the end: who is asked next is said where GJK ends.
+TEST_F(Truth, AfterAStallItIsSaidWhoIsAskedNext) {
+  app.open_gallery("end-begins-again");
+  std::size_t told = 0;
+  for (std::size_t step = 0; step + 1 < session.count(); ++step) {
+    if (!std::holds_alternative<recorded::GjkEnded>(session.recording().events[step])) continue;
+    session.go_to(step);
+    told += explain(session.recording(), session.frame()).text.find("signed volumes, which have exact signs to fall back on, begin once more") != std::string::npos;
+  }
+  EXPECT_EQ(told, 1u);
+  EXPECT_EQ(told_at_the_end().find("once more"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace gjkdbg

@@ -80,11 +80,15 @@ struct Explain : ExplainMethods {
     return std::string(gap <= recording.settings.tolerance * size ? " are within the tolerance of each other" : " are as near as rounding lets them come") + ", and the signed distance lies between them";
   }
 
-  /// Whether the same pair is searched once more (algo/run_gjk.h): in a motion, and between the parts of meshes, what follows may be another pair's.
-  bool begins_again() const {
+  /// After a stall that leaves open whether the bodies touch: who is asked next (algo/run_gjk.h, algo/solve_pair.h). In a motion, and between the parts of meshes, the next run may be another pair's.
+  std::string asked_next() const {
     const Settings& s = recording.settings;
     const std::size_t next = frame.step + 1;
-    return s.closest_point != ClosestPoint::signed_volumes && recording.scene.scene.bodies.size() == 2 && next < recording.events.size() && std::holds_alternative<recorded::GjkBegan>(recording.events[next]);
+    if (recording.scene.scene.bodies.size() != 2 || next >= recording.events.size()) return "";
+    const bool again = s.closest_point != ClosestPoint::signed_volumes && std::holds_alternative<recorded::GjkBegan>(recording.events[next]);
+    const bool mpr = recording.scene.scene.query == Query::intersect && std::holds_alternative<recorded::MprBegan>(recording.events[next]);
+    if (!again && !mpr) return "";
+    return std::string(" They leave open whether the bodies touch, so ") + (again ? "signed volumes, which have exact signs to fall back on, begin once more." : "MPR is asked, which looks from a point inside A - B, not from the origin.");
   }
 
   std::string sentence(const recorded::GjkEnded& e) const {
@@ -97,8 +101,7 @@ struct Explain : ExplainMethods {
       case GjkStatus::enclosed: return "The simplex encloses the origin: some point of body " + a() + " is also a point of body " + b() + ". The " + bodies() + " overlap.";
       case GjkStatus::touching: return std::string("The origin lies on the simplex, within rounding: on a vertex, an edge or a face. ") + (frame.step + 1 == recording.events.size() ? "The bodies touch or overlap, and no more was asked." : "Whether this is touch or overlap, EPA will tell.");
       case GjkStatus::stalled:
-        return "|v| no longer falls: the precision is used up, or the method's own rule stops it. The bounds say how much is known." +
-               std::string(begins_again() ? " They leave open whether the bodies touch, so signed volumes, which have exact signs to fall back on, begin once more." : "");
+        return "|v| no longer falls: the precision is used up, or the method's own rule stops it. The bounds say how much is known." + asked_next();
       case GjkStatus::iteration_limit: return "The iteration limit is reached before the bounds met. This is no answer; the bounds say how much is known.";
       case GjkStatus::rule_met: return "The stopping rule of the method is met. Bounds that have not met say that it stopped early.";
       case GjkStatus::aborted: return "The solver ended without an answer.";
