@@ -199,12 +199,12 @@ class Gjk {
   /// Weights are found when somebody wants them.
   template <class Nearest>
   [[gnu::always_inline]] bool accept(const Nearest& nearest) {
-    if (nearest.encloses() ? lower_bound_ > 0 : !falls_to(nearest.v, nearest.v_squared)) [[unlikely]] return false;
+    if (nearest.encloses() ? lower_bound_ > 0 : !falls_to(nearest.v(), nearest.v_squared)) [[unlikely]] return false;
     enclosed_ = nearest.encloses();
     if constexpr (traced<Trace>) places_ |= 1u << newest_, before_ = vertex_numbers();
     places_ = nearest.places;
     grown_by_ = newest_, weighed_ = false;
-    advance_to(nearest.v, nearest.v_squared);
+    advance_to(nearest.v(), nearest.v_squared);
     return true;
   }
   /// Newton's directions bring |v| to its least before it falls by no more than it rounds, where |v| is known to a floor only.
@@ -338,7 +338,7 @@ class Gjk {
   bool enclosed_ = false;
   GjkStatus status_ = GjkStatus::converged;
   S last_squared_ = std::numeric_limits<S>::max();
-  Leading& leading_;
+  std::conditional_t<leads, Leading&, Leading> leading_;  ///< in its own place where it is shown to others, for its numbers are to stay in registers, too
   std::array<int, D + 1> order_;
   Numbers before_;
 };

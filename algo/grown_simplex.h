@@ -27,6 +27,7 @@
 
 #include "algo/closest_point_wide.h"
 #include "algo/enclosing_simplex.h"
+#include "algo/grown_lanes.h"
 #include "algo/orientation.h"
 #include "algo/simplex.h"
 #include "shapes/triple.h"
@@ -40,9 +41,13 @@ class GrownSimplex {
 
  public:
   struct Nearest {
-    T v{0, 0, 0};
-    S v_squared = 0;
+    S x = 0, y = 0, z = 0, v_squared = 0;
     unsigned places = 0;  ///< of the feature's vertices; 0: not told
+    Nearest() = default;
+    [[gnu::always_inline]] Nearest(const T& v, S squared, unsigned of) : x(v.x), y(v.y), z(v.z), v_squared(squared), places(of) {}
+    [[gnu::always_inline]] Nearest(const Nearest& n) : x(n.x), y(n.y), z(n.z), v_squared(n.v_squared), places(n.places) {}
+    [[gnu::always_inline]] Nearest& operator=(const Nearest& n) { x = n.x, y = n.y, z = n.z, v_squared = n.v_squared, places = n.places; return *this; }
+    [[gnu::always_inline]] T v() const { return {x, y, z}; }
 
     bool encloses() const { return places == 0b1111; }  ///< the origin is inside, and v zero
   };
@@ -50,11 +55,18 @@ class GrownSimplex {
   /// The old vertices' places, at most three, and the newest one's, whose w is a.
   [[gnu::always_inline]] static Nearest closest(const Points& points, unsigned old, int newest, const T a) {
     if (old == 0) return told(a, 1u << newest);
-    const Edge i(points, a, newest, std::countr_zero(old));
-    if (!(old &= old - 1)) return along(i);
-    const Edge j(points, a, newest, std::countr_zero(old));
-    if (!(old &= old - 1)) return across(i, j, i.e.cross(j.e));
-    return around(i, j, Edge(points, a, newest, std::countr_zero(old)));
+    const int i = std::countr_zero(old);
+    if (!(old &= old - 1)) return along(Edge(points, a, newest, i));
+    const int j = std::countr_zero(old), k = (old &= old - 1) != 0 ? std::countr_zero(old) : j;
+#ifdef GJKDBG_AVX2
+    if constexpr (sizeof(S) == 8)
+      if (__builtin_cpu_supports("avx2")) {
+        const Nearest found = in_lanes(points, newest, i, j, k);
+        if (found.places != 0) [[likely]] return found;
+        return one_by_one(points, newest, i, j, k);
+      }
+#endif
+    return features(points, newest, i, j, k, a);
   }
 
   /// The weights of such a feature, by place: v = sum weight_i w_i. Those of no vertex of it stay.
@@ -93,6 +105,25 @@ class GrownSimplex {
 
   [[gnu::always_inline]] static Nearest told(const T& v, unsigned places) { return {v, v.dot(v), places}; }
 
+  [[gnu::always_inline]] static Nearest features(const Points& points, int newest, int i, int j, int k, const T& a) {
+    const Edge to_i(points, a, newest, i), to_j(points, a, newest, j);
+    if (k == j) return across(to_i, to_j, to_i.e.cross(to_j.e));
+    return around(to_i, to_j, Edge(points, a, newest, k));
+  }
+  [[gnu::noinline]] static Nearest one_by_one(const Points& points, int newest, int i, int j, int k) { return features(points, newest, i, j, k, T::of(points[newest].w)); }
+
+#ifdef GJKDBG_AVX2
+  /// The nearest of a triangle (k is j) or of a solid's faces, where it is told at once.
+  [[gnu::always_inline]] static Nearest in_lanes(const Points& points, int newest, int i, int j, int k) {
+    FeatureLanes features;
+    const int lane = k == j ? nearest_of_triangle_by_avx2(points.data(), newest, i, j, features) : nearest_face_by_avx2(points.data(), newest, i, j, k, features);
+    if (lane < 0) [[unlikely]] return {};
+    const unsigned all = 1u << newest | 1u << i | 1u << j | 1u << k;
+    const int left_out = k == j ? (lane == 0 ? -1 : lane == 1 ? j : i) : (lane == 0 ? k : lane == 1 ? i : j);
+    return {T{features.x[lane], features.y[lane], features.z[lane]}, features.squared[lane], left_out < 0 ? all : all & ~(1u << left_out)};
+  }
+#endif
+
   [[gnu::always_inline]] static Nearest along(const Edge& i) {
     if (!(i.towards > 0)) return told(i.a, i.from());
     if (!(i.towards < i.length)) [[unlikely]] return {};
@@ -126,7 +157,7 @@ class GrownSimplex {
   [[gnu::noinline]] static Nearest across_thin(const Edge& i, const Edge& j, const T& n) {
     const Nearest found = in_triangle(i, j, n);
     if (count_of(found.places) == 3) {
-      const T off = i.a + i.e * (-n.dot(j.c) / n.dot(n)) + j.e * (n.dot(i.c) / n.dot(n)) - found.v;
+      const T off = i.a + i.e * (-n.dot(j.c) / n.dot(n)) + j.e * (n.dot(i.c) / n.dot(n)) - found.v();
       constexpr S rounding = 16 * std::numeric_limits<S>::epsilon();
       if (!(off.dot(off) <= rounding * rounding * i.a.dot(i.a))) return {};
     }
@@ -143,15 +174,16 @@ class GrownSimplex {
     const bool by_ij = (beyond_ij > 0) == out, by_jk = (beyond_jk > 0) == out, by_ki = (beyond_ki > 0) == out;
     if (!(by_ij | by_jk | by_ki)) {
       const S left = beyond_ij + beyond_jk + beyond_ki + volume;
-      if (std::abs(left) > 5 * error && (left > 0) == out) return {{0, 0, 0}, 0, 0b1111};
+      if (std::abs(left) > 5 * error && (left > 0) == out) return {T{0, 0, 0}, 0, 0b1111};
       return {};
     }
     Nearest best;
     bool known = true;
     const auto ends_with = [&](const Nearest& found) __attribute__((always_inline)) {
+      const bool inside = count_of(found.places) == 3;  // a face that the origin lies beyond: no other feature is nearer
       known &= found.places != 0;
-      if (best.places == 0 || found.v_squared < best.v_squared) best = found;
-      return count_of(found.places) == 3;  // inside a face that the origin lies beyond: no other is nearer
+      if (inside || best.places == 0 || found.v_squared < best.v_squared) best = found;
+      return inside;
     };
     if (by_ij && ends_with(across(i, j, ij))) return best;
     if (by_jk && ends_with(across(j, k, jk))) return best;
@@ -170,7 +202,7 @@ class GrownSimplex {
   /// By how much the proof fails bounds the error of |v| (times |v|). The product rounds by the vertices' size.
   [[gnu::always_inline]] static Nearest proven(const Nearest& found, std::initializer_list<T> vertices) {
     S least = found.v_squared, far = 0;
-    for (const T& w : vertices) least = std::min(least, found.v.dot(w)), far = std::max(far, w.dot(w));
+    for (const T& w : vertices) least = std::min(least, found.v().dot(w)), far = std::max(far, w.dot(w));
     const S gap = found.v_squared - least;
     constexpr S rounding = 16 * std::numeric_limits<S>::epsilon();
     return gap * gap <= rounding * rounding * found.v_squared * far ? found : Nearest{};

@@ -192,7 +192,7 @@ class MinkowskiDifference {
 
   const A& a_;
   const B& b_;
-  const VerticesPair of_vertices_;
+  VerticesPair of_vertices_;
   const RelativePose<D, S> pose_;
   S rounding_floor_;
   int calls_ = 0, numbers_ = 0;

@@ -17,6 +17,22 @@ GJKDBG_LANES void write(SupportPoint<3, double>& point, const RelativePose<3, do
   store_three(point.b.data(), at_b);
 }
 
+/// The highest along (x, y, z) of those whose bits are set. What it costs is the time until the bits are known, which the places met last do not wait for: of them it
+/// is known beforehand which is the highest, and it mostly is one of them, for a direction across an edge or a face is that of the simplex.
+GJKDBG_LANES unsigned highest_of(const VertexEights& vertices, unsigned high, std::uint32_t last, double x, double y, double z) {
+  double greatest = -std::numeric_limits<double>::infinity();
+  unsigned found = 0, met = 0;
+  for (int i = 0; i < 4; ++i, last >>= 8) {
+    const unsigned place = last & 0xff;
+    const double* const v = vertices.vertex(place);
+    const double height = v[0] * x + v[1] * y + v[2] * z;
+    const bool higher = (height > greatest) | ((height == greatest) & (place < found));
+    greatest = higher ? height : greatest, found = higher ? place : found, met |= 1U << place;
+  }
+  if ((high & ~met) != 0) [[unlikely]] return static_cast<unsigned>(vertices.settled(high, x, y, z));
+  return found;
+}
+
 /// A table's vertex along d.
 struct Found {
   const double* x;
@@ -30,23 +46,35 @@ struct Found {
 
 }  // namespace
 
+[[gnu::target("avx2"), gnu::always_inline]] inline void VerticesPair::end(SupportPoint<3, double>& point, const RelativePose<3, double>& pose, unsigned a, unsigned b) {
+  last_a_ = last_a_ << 8 | a, last_b_ = last_b_ << 8 | b;
+  write(point, pose, _mm256_loadu_pd(a_->vertex(a)), b_->vertex(b), 1);
+}
+
 /// What all else waits for is body 1: its direction is turned before, and its point after.
-[[gnu::target("avx2")]] void VerticesPair::support(const RelativePose<3, double>& pose, double x, double y, double z, SupportPoint<3, double>& point) const {
+[[gnu::target("avx2")]] void VerticesPair::support(const RelativePose<3, double>& pose, double x, double y, double z, SupportPoint<3, double>& point) {
   if (a_ == nullptr) return support_of_tables(pose, x, y, z, point);
+  point.w[0] = x, point.w[1] = y, point.w[2] = z;  // for `settled`: where they are handed over, they are no longer where they are needed first
   const float size = static_cast<float>(std::abs(x) + std::abs(y) + std::abs(z)) * 1.75F + std::numeric_limits<float>::min();
   const Lanes towards_a = _mm256_xor_pd(_mm256_set1_pd(-0.0), turned(pose.inverse, _mm256_set1_pd(x), _mm256_set1_pd(y), _mm256_set1_pd(z)));
   const __m128 single = _mm256_cvtpd_ps(towards_a);
   const __m256 twice = _mm256_set_m128(single, single);
-  VertexEights::Highest a = a_->highest(_mm256_set1_ps(static_cast<float>(x)), _mm256_set1_ps(static_cast<float>(y)), _mm256_set1_ps(static_cast<float>(z)), size);
-  VertexEights::Highest b = b_->highest(_mm256_permute_ps(twice, 0b00000000), _mm256_permute_ps(twice, 0b01010101), _mm256_permute_ps(twice, 0b10101010), size);
-  if (!a.sure() || !b.sure()) [[unlikely]] {
-    double d[4];
-    _mm256_storeu_pd(d, towards_a);
-    b.place = b_->settled(b.high, d);
-    d[0] = x, d[1] = y, d[2] = z;
-    a.place = a_->settled(a.high, d);
+  const VertexEights::Highest a = a_->highest(_mm256_set1_ps(static_cast<float>(x)), _mm256_set1_ps(static_cast<float>(y)), _mm256_set1_ps(static_cast<float>(z)), size);
+  const VertexEights::Highest b = b_->highest(_mm256_permute_ps(twice, 0b00000000), _mm256_permute_ps(twice, 0b01010101), _mm256_permute_ps(twice, 0b10101010), size);
+  if (!a.sure()) return b.sure() ? settled<true, false>(pose, point, a.high, b.place) : settled<true, true>(pose, point, a.high, b.high);
+  if (!b.sure()) return settled<false, true>(pose, point, a.place, b.high);
+  end(point, pose, a.place, b.place);
+}
+
+template <bool by_a, bool by_b>
+void VerticesPair::settled(const RelativePose<3, double>& pose, SupportPoint<3, double>& point, unsigned a, unsigned b) {
+  const double x = point.w[0], y = point.w[1], z = point.w[2];
+  if constexpr (by_b) {
+    const Lanes d = _mm256_xor_pd(_mm256_set1_pd(-0.0), turned(pose.inverse, _mm256_set1_pd(x), _mm256_set1_pd(y), _mm256_set1_pd(z)));
+    b = highest_of(*b_, b, last_b_, d[0], d[1], d[2]);
   }
-  write(point, pose, _mm256_loadu_pd(a_->vertex(a.place)), b_->vertex(b.place), 1);
+  if constexpr (by_a) a = highest_of(*a_, a, last_a_, x, y, z);
+  end(point, pose, a, b);
 }
 
 [[gnu::target("avx2")]] void VerticesPair::support_of_tables(const RelativePose<3, double>& pose, double x, double y, double z, SupportPoint<3, double>& point) const {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
 #include <variant>
 
@@ -36,7 +37,7 @@ class VerticesPair {
   explicit operator bool() const { return (a_ != nullptr) | (table_a_ != nullptr); }
   /// What MinkowskiDifference::support says, number by number; of vertices as high as one another the one VertexFours::highest takes. All but the point's number.
   /// Not inlined: a caller that is to be flattened (MinkowskiDifference::support) is no code for AVX2.
-  [[gnu::noinline]] void support(const RelativePose<3, double>& pose, double x, double y, double z, SupportPoint<3, double>& point) const;
+  [[gnu::noinline]] void support(const RelativePose<3, double>& pose, double x, double y, double z, SupportPoint<3, double>& point);
 #endif
 
  private:
@@ -52,9 +53,14 @@ class VerticesPair {
     if constexpr (std::is_same_v<Body, Convex<3, double>>) return std::get_if<HullCore<double>>(&body.core());
     return nullptr;
   }
+  /// Where single precision leaves several vertices of a body, whose bits take the place of a vertex's number. Called last, so that `support` has no registers to save.
+  template <bool by_a, bool by_b>
+  [[gnu::noinline, gnu::target("avx2")]] void settled(const RelativePose<3, double>& pose, SupportPoint<3, double>& point, unsigned a, unsigned b);
+  void end(SupportPoint<3, double>& point, const RelativePose<3, double>& pose, unsigned a, unsigned b);
   [[gnu::noinline]] void support_of_tables(const RelativePose<3, double>& pose, double x, double y, double z, SupportPoint<3, double>& point) const;
 
   const VertexEights *a_ = nullptr, *b_ = nullptr;
+  std::uint32_t last_a_ = 0, last_b_ = 0;  ///< places of the vertices met last, a byte each
   const HullCore<double> *table_a_ = nullptr, *table_b_ = nullptr;
 #endif
 };

@@ -39,19 +39,19 @@ class VertexEights {
 
   /// What single precision says.
   struct Highest {
-    std::size_t place;
-    unsigned high;  ///< a bit for each vertex that may be the highest: where there is more than one of them, `settled` says which is
+    unsigned place;
+    unsigned high;  ///< a bit for the place of each vertex that may be the highest: where there is more than one of them, `settled` says which is
     bool sure() const { return (high & (high - 1)) == 0; }
   };
 
   /// The highest along (x, y, z), each eight times, of no more than this size.
   [[gnu::target("avx2"), gnu::always_inline]] inline Highest highest(__m256 x, __m256 y, __m256 z, float size) const {
-    const __m256i places = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    const __m256i places = _mm256_setr_epi32(0, 1, 2, 3, 16, 17, 18, 19);
     __m256 height[4];
     for (int i = 0; i < 4; ++i) {
       const auto& [vx, vy, vz] = numbers_->eights[static_cast<std::size_t>(i)];
       const __m256 sum = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x, _mm256_load_ps(vx.data())), _mm256_mul_ps(y, _mm256_load_ps(vy.data()))), _mm256_mul_ps(z, _mm256_load_ps(vz.data())));
-      const __m256i place = _mm256_or_si256(places, _mm256_set1_epi32(8 * i));
+      const __m256i place = _mm256_or_si256(places, _mm256_set1_epi32(4 * i));
       height[i] = _mm256_or_ps(_mm256_andnot_ps(_mm256_castsi256_ps(_mm256_set1_epi32(31)), sum), _mm256_castsi256_ps(place));
     }
     const __m256 eight = _mm256_max_ps(_mm256_max_ps(height[0], height[1]), _mm256_max_ps(height[2], height[3]));
@@ -62,11 +62,11 @@ class VertexEights {
     __m256i high[4];
     for (int i = 0; i < 4; ++i) high[i] = _mm256_castps_si256(_mm256_cmp_ps(height[i], bar, _CMP_NLT_UQ));
     const __m256i all = _mm256_packs_epi16(_mm256_packs_epi32(high[0], high[1]), _mm256_packs_epi32(high[2], high[3]));
-    return {static_cast<std::size_t>(_mm_cvtsi128_si32(_mm_castps_si128(greatest))) % most, static_cast<unsigned>(_mm256_movemask_epi8(all))};
+    return {static_cast<unsigned>(_mm_cvtsi128_si32(_mm_castps_si128(greatest))) % unsigned{most}, static_cast<unsigned>(_mm256_movemask_epi8(all))};
   }
 
-  /// The place of the highest along d of those whose bits are set; of several as high the one that GreatestOfFours takes.
-  std::size_t settled(unsigned high, const double* d) const;
+  /// The place of the highest along (x, y, z) of those whose bits are set; of several as high the first, which is the one that GreatestOfFours takes.
+  std::size_t settled(unsigned high, double x, double y, double z) const;
 
   const double* vertex(std::size_t place) const { return numbers_->vertices.data() + 3 * place; }  ///< x, y, z, and one number more may be read
 
@@ -79,7 +79,7 @@ class VertexEights {
   std::shared_ptr<const Numbers> numbers_;
   static constexpr float near = 1e-5F;  ///< times t: heights nearer to one another may be the other way round
   float far_ = 0;                       ///< the greatest coordinate
-  unsigned size_ = 0;
+  unsigned all_ = 0;  ///< a bit for the place of each vertex
 };
 
 }  // namespace gjkdbg

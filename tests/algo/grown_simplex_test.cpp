@@ -70,7 +70,7 @@ TEST(GrownSimplex, TellsThePointNearestTheOrigin) {
     const auto signed_volumes = SignedVolumes<3, double>::closest(w.data(), count);
     ASSERT_EQ(found.encloses(), signed_volumes.enclosed) << "simplex " << k;
     enclosing += found.encloses();
-    const Eigen::Vector3d v = found.v.vector();
+    const Eigen::Vector3d v = found.v().vector();
     if (!found.encloses()) {
       const auto wide = WideClosestPoint<3, double>::of_boundary(w.data(), count);
       EXPECT_NEAR(v.norm(), std::sqrt(wide.v_squared), 1e-12 * far) << "simplex " << k;  // a normal's last digits, by the sine of 1e-3 from which a triangle is thin
