@@ -47,6 +47,7 @@ struct GjkSteps {
   using V = Vector<D, S>;
   int on_the_spot = 0;
   V stepped_to;  ///< by the last of these
+  ToldInLanes<S> lanes;
 
   /// |v| must fall, and has not. Where the plane still turns but |v| falls by less than it rounds (a nearly flat part of A - B met at
   /// a grazing angle), a few steps on the spot are allowed, not twice to the same.
@@ -162,7 +163,7 @@ class Gjk {
   /// Takes the newest point and cuts the simplex down to the feature nearest the origin; false when that is no nearer than before (NaN included).
   [[gnu::always_inline]] bool reduce() {
     if constexpr (grows<SubAlgorithm>) {
-      const auto nearest = SubAlgorithm::Grown::closest(result_.simplex.points, places_, newest_, newest_w_);
+      const auto nearest = SubAlgorithm::Grown::closest(result_.simplex.points, places_, newest_, newest_w_, steps_.lanes);
       if (nearest.places != 0) [[likely]] return accept(nearest);
     }
     places_ |= 1u << newest_;
@@ -199,7 +200,7 @@ class Gjk {
   /// Weights are found when somebody wants them.
   template <class Nearest>
   [[gnu::always_inline]] bool accept(const Nearest& nearest) {
-    if (nearest.encloses() ? lower_bound_ > 0 : !falls_to(nearest.v(), nearest.v_squared)) [[unlikely]] return false;
+    if (nearest.encloses() ? lower_bound_ > 0 : !falls_to(nearest.v(), nearest.v_squared)) [[unlikely]] return SubAlgorithm::Grown::forget(steps_.lanes), false;
     enclosed_ = nearest.encloses();
     if constexpr (traced<Trace>) places_ |= 1u << newest_, before_ = vertex_numbers();
     places_ = nearest.places;
@@ -222,7 +223,7 @@ class Gjk {
 
   [[gnu::always_inline]] void weigh() {
     if constexpr (grows<SubAlgorithm>)
-      if (!weighed_) SubAlgorithm::Grown::weigh(result_.simplex.points, places_, grown_by_, result_.simplex.weights);
+      if (!weighed_) SubAlgorithm::Grown::weigh(result_.simplex.points, places_, grown_by_, steps_.lanes, result_.simplex.weights);
     weighed_ = true;
   }
 

@@ -11,10 +11,14 @@ namespace {
 
 GJKDBG_LANES __m256d size_of(const __m256d& x) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), x); }
 
-GJKDBG_LANES void set_features(FeatureLanes& features, const FourVectors& v) {
+GJKDBG_LANES void set_points(FeatureLanes& features, const FourVectors& v) {
   _mm256_storeu_pd(features.x, v.x), _mm256_storeu_pd(features.y, v.y), _mm256_storeu_pd(features.z, v.z);
   _mm256_storeu_pd(features.squared, v.dot(v));
 }
+GJKDBG_LANES void set_weights(FeatureLanes& features, const __m256d& first, const __m256d& second, const __m256d& whole) {
+  _mm256_storeu_pd(features.first, first), _mm256_storeu_pd(features.second, second), _mm256_storeu_pd(features.whole, whole);
+}
+GJKDBG_LANES __m256d negative_of(const __m256d& x) { return _mm256_xor_pd(x, _mm256_set1_pd(-0.0)); }
 
 /// The greatest of all lanes, in each.
 GJKDBG_LANES __m256d greatest_of_lanes(__m256d x) {
@@ -33,20 +37,19 @@ GJKDBG_LANES __m256d greatest_of_lanes(__m256d x) {
   const FourVectors side = e.with<0b0001>(first).with<0b1000>(e - e_i);
   const __m256d length = side.dot(side), along = side.dot(a);
   const __m256d height = _mm256_blend_pd(_mm256_set1_pd(1), along, 0b0001);
-  set_features(features, across * _mm256_div_pd(height, length));
-  // Weights are, but for the area, -n . c_j of i and n . c_i of j.
-  const __m256d turned = first.from<0b00000000>().dot(first);
-  const __m128d of_j_and_i = _mm_xor_pd(_mm_unpacklo_pd(_mm_permute_pd(_mm256_castpd256_pd128(turned), 1), _mm256_extractf128_pd(turned, 1)), _mm_set_pd(-0.0, 0.0));
-  const int within = _mm_movemask_pd(_mm_cmpgt_pd(of_j_and_i, _mm_setzero_pd()));  // 1: of j, 2: of i
-  const __m256d towards = _mm256_xor_pd(along, _mm256_set1_pd(-0.0));
-  const __m256d ends = _mm256_and_pd(_mm256_cmp_pd(towards, _mm256_setzero_pd(), _CMP_GT_OQ), _mm256_cmp_pd(towards, length, _CMP_LT_OQ));
-  const __m128d sum = _mm_add_sd(of_j_and_i, _mm_unpackhi_pd(of_j_and_i, of_j_and_i));
-  const int holds = (_mm256_movemask_pd(ends) & 0b0110) | _mm_comilt_sd(sum, _mm256_castpd256_pd128(length));
+  set_points(features, across * _mm256_div_pd(height, length));
+  const __m256d turned = first.from<0b00000000>().dot(first), towards = negative_of(along);  // n . c_i, n . c_j in lanes 1, 2
+  const __m256d of_i = _mm256_blend_pd(negative_of(_mm256_permute4x64_pd(turned, 2)), towards, 0b0010), of_j = _mm256_blend_pd(_mm256_permute_pd(turned, 0b0101), towards, 0b0100);
+  set_weights(features, of_i, of_j, length);
+  const __m256d zero = _mm256_setzero_pd();
+  const int positive_i = _mm256_movemask_pd(_mm256_cmp_pd(of_i, zero, _CMP_GT_OQ)), positive_j = _mm256_movemask_pd(_mm256_cmp_pd(of_j, zero, _CMP_GT_OQ));
+  const int lane = 3 - 2 * (positive_i & 1) - (positive_j & 1);  // both the triangle, one its edge; of none, lane 3, nothing is told
+  const int ends = _mm256_movemask_pd(_mm256_cmp_pd(towards, length, _CMP_LT_OQ)) & ((positive_i & 0b0010) | (positive_j & 0b0100));
+  const int holds = ends | _mm_comilt_sd(_mm_add_sd(_mm256_castpd256_pd128(of_i), _mm256_castpd256_pd128(of_j)), _mm256_castpd256_pd128(length));
   // Of i, j and the third edge, the longer of the first two and the shorter of all but that one.
-  const __m128d upper = _mm256_extractf128_pd(length, 1), lower = _mm256_castpd256_pd128(length), of_i = _mm_unpackhi_pd(lower, lower), third = _mm_unpackhi_pd(upper, upper);
-  const __m128d longer = _mm_max_sd(of_i, upper), shorter = _mm_min_sd(_mm_min_sd(of_i, upper), third);
+  const __m128d upper = _mm256_extractf128_pd(length, 1), lower = _mm256_castpd256_pd128(length), to_i = _mm_unpackhi_pd(lower, lower), third = _mm_unpackhi_pd(upper, upper);
+  const __m128d longer = _mm_max_sd(to_i, upper), shorter = _mm_min_sd(_mm_min_sd(to_i, upper), third);
   const bool plain = _mm_comigt_sd(lower, _mm_mul_sd(_mm_mul_sd(_mm_set_sd(1e-6), longer), shorter)) != 0;
-  const int lane = 3 - within;  // both the triangle, one its edge; of none, lane 3, nothing is told
   return plain && (holds >> lane & 1) != 0 ? lane : -1;
 }
 
@@ -57,12 +60,12 @@ GJKDBG_LANES __m256d greatest_of_lanes(__m256d x) {
   const FourVectors e = w - a, next = w.from<0b01'00'10'01>() - a, e_k = FourVectors::all(points[k].w.data()) - a;
   const FourVectors n = e.cross(next);
   const __m256d area = n.dot(n), beyond = n.dot(a.with<0b1000>(e_k));  // the last: the volume
-  set_features(features, n * _mm256_div_pd(beyond, area));
+  set_points(features, n * _mm256_div_pd(beyond, area));
   const __m256d most = greatest_of_lanes(_mm256_max_pd(_mm256_max_pd(_mm256_max_pd(size_of(a.x), size_of(a.y)), size_of(a.z)), _mm256_max_pd(_mm256_max_pd(size_of(e.x), size_of(e.y)), size_of(e.z))));
   const __m256d error = _mm256_mul_pd(_mm256_set1_pd(2), _mm256_mul_pd(_mm256_mul_pd(_mm256_mul_pd(_mm256_set1_pd(24 * std::numeric_limits<double>::epsilon()), most), most), most));
   const __m256d told = _mm256_cmp_pd(size_of(beyond), error, _CMP_GT_OQ);
-  // Weights are, but for the area, -n . c of the next edge and n . c of this one.
-  const __m256d first = _mm256_xor_pd(n.dot(a.cross(next)), _mm256_set1_pd(-0.0)), second = n.dot(a.cross(e)), zero = _mm256_setzero_pd();
+  const __m256d first = negative_of(n.dot(a.cross(next))), second = n.dot(a.cross(e)), zero = _mm256_setzero_pd();
+  set_weights(features, first, second, area);
   const __m256d holds = _mm256_and_pd(_mm256_and_pd(_mm256_cmp_pd(first, zero, _CMP_GT_OQ), _mm256_cmp_pd(second, zero, _CMP_GT_OQ)), _mm256_cmp_pd(_mm256_add_pd(first, second), area, _CMP_LT_OQ));
   const FourVectors third = next - e;
   const __m256d of_e = e.dot(e), of_next = next.dot(next), of_third = third.dot(third);

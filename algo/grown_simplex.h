@@ -52,25 +52,46 @@ class GrownSimplex {
     bool encloses() const { return places == 0b1111; }  ///< the origin is inside, and v zero
   };
 
-  /// The old vertices' places, at most three, and the newest one's, whose w is a.
-  [[gnu::always_inline]] static Nearest closest(const Points& points, unsigned old, int newest, const T a) {
+  /// The old vertices' places, at most three, and the newest one's, whose w is a. `lanes`: for `weigh`.
+  [[gnu::always_inline]] static Nearest closest(const Points& points, unsigned old, int newest, const T a, ToldInLanes<S>& lanes) {
+    forget(lanes);
     if (old == 0) return told(a, 1u << newest);
-    const int i = std::countr_zero(old);
-    if (!(old &= old - 1)) return along(Edge(points, a, newest, i));
-    const int j = std::countr_zero(old), k = (old &= old - 1) != 0 ? std::countr_zero(old) : j;
+    const Old places(old);
+    if (places.count == 1) return along(Edge(points, a, newest, places.i));
 #ifdef GJKDBG_AVX2
     if constexpr (sizeof(S) == 8)
       if (__builtin_cpu_supports("avx2")) {
-        const Nearest found = in_lanes(points, newest, i, j, k);
+        const Nearest found = in_lanes(points, places, newest, lanes);
         if (found.places != 0) [[likely]] return found;
-        return one_by_one(points, newest, i, j, k);
+        return one_by_one(points, old, newest);
       }
 #endif
-    return features(points, newest, i, j, k, a);
+    return of_features(points, places, newest, a);
+  }
+  /// The same without lanes, of two old vertices at least.
+  [[gnu::noinline]] static Nearest one_by_one(const Points& points, unsigned old, int newest) { return of_features(points, Old(old), newest, T::of(points[newest].w)); }
+
+  /// What was told is not the feature of the weights that will be wanted.
+  [[gnu::always_inline]] static void forget([[maybe_unused]] ToldInLanes<S>& lanes) {
+#ifdef GJKDBG_AVX2
+    if constexpr (sizeof(S) == 8) lanes.lane = -1;
+#endif
   }
 
   /// The weights of such a feature, by place: v = sum weight_i w_i. Those of no vertex of it stay.
-  [[gnu::noinline]] static void weigh(const Points& points, unsigned places, int newest, std::array<S, 4>& weights) {
+  [[gnu::always_inline]] static void weigh(const Points& points, unsigned places, int newest, const ToldInLanes<S>& lanes, std::array<S, 4>& weights) {
+#ifdef GJKDBG_AVX2
+    if constexpr (sizeof(S) == 8)
+      if (const int lane = lanes.lane; lane >= 0) {
+        const S whole = lanes.features.whole[lane], first = lanes.features.first[lane], second = lanes.features.second[lane];
+        weights[lanes.first] = first / whole, weights[lanes.second] = second / whole;
+        weights[newest] = count_of(places) == 3 ? (whole - (first + second)) / whole : 1 - weights[(places >> lanes.first & 1) != 0 ? lanes.first : lanes.second];
+        return;
+      }
+#endif
+    weigh_anew(points, places, newest, weights);
+  }
+  [[gnu::noinline]] static void weigh_anew(const Points& points, unsigned places, int newest, std::array<S, 4>& weights) {
     const T a = T::of(points[newest].w);
     weights[newest] = 1;
     unsigned old = places & ~(1u << newest);
@@ -89,6 +110,17 @@ class GrownSimplex {
   }
 
  private:
+  /// The places of the old vertices; of two of them k is j.
+  struct Old {
+    int i, j, k, count;
+
+    [[gnu::always_inline]] explicit Old(unsigned places) {
+      i = std::countr_zero(places), places &= places - 1, count = 1 + (places != 0);
+      j = places != 0 ? std::countr_zero(places) : i, places &= places - 1;
+      k = places != 0 ? std::countr_zero(places) : j, count += places != 0;
+    }
+  };
+
   /// From the newest vertex.
   struct Edge {
     const T& a;
@@ -105,22 +137,29 @@ class GrownSimplex {
 
   [[gnu::always_inline]] static Nearest told(const T& v, unsigned places) { return {v, v.dot(v), places}; }
 
-  [[gnu::always_inline]] static Nearest features(const Points& points, int newest, int i, int j, int k, const T& a) {
-    const Edge to_i(points, a, newest, i), to_j(points, a, newest, j);
-    if (k == j) return across(to_i, to_j, to_i.e.cross(to_j.e));
-    return around(to_i, to_j, Edge(points, a, newest, k));
+  [[gnu::always_inline]] static Nearest of_features(const Points& points, const Old& old, int newest, const T& a) {
+    const Edge i(points, a, newest, old.i), j(points, a, newest, old.j);
+    if (old.count == 2) return across(i, j, i.e.cross(j.e));
+    return around(i, j, Edge(points, a, newest, old.k));
   }
-  [[gnu::noinline]] static Nearest one_by_one(const Points& points, int newest, int i, int j, int k) { return features(points, newest, i, j, k, T::of(points[newest].w)); }
 
 #ifdef GJKDBG_AVX2
-  /// The nearest of a triangle (k is j) or of a solid's faces, where it is told at once.
-  [[gnu::always_inline]] static Nearest in_lanes(const Points& points, int newest, int i, int j, int k) {
-    FeatureLanes features;
-    const int lane = k == j ? nearest_of_triangle_by_avx2(points.data(), newest, i, j, features) : nearest_face_by_avx2(points.data(), newest, i, j, k, features);
+  /// The nearest of a triangle or of a solid's faces, where it is told at once.
+  [[gnu::always_inline]] static Nearest in_lanes(const Points& points, const Old& old, int newest, ToldInLanes<S>& told) {
+    const auto [i, j, k, count] = old;
+    FeatureLanes& features = told.features;
+    int lane, left_out;
+    if (count == 2) {
+      lane = nearest_of_triangle_by_avx2(points.data(), newest, i, j, features);
+      left_out = lane == 1 ? j : i, told.first = i, told.second = j;
+    } else {
+      lane = nearest_face_by_avx2(points.data(), newest, i, j, k, features);
+      left_out = lane == 0 ? k : lane == 1 ? i : j, told.first = lane == 0 ? i : lane == 1 ? j : k, told.second = lane == 0 ? j : lane == 1 ? k : i;
+    }
     if (lane < 0) [[unlikely]] return {};
+    told.lane = lane;
     const unsigned all = 1u << newest | 1u << i | 1u << j | 1u << k;
-    const int left_out = k == j ? (lane == 0 ? -1 : lane == 1 ? j : i) : (lane == 0 ? k : lane == 1 ? i : j);
-    return {T{features.x[lane], features.y[lane], features.z[lane]}, features.squared[lane], left_out < 0 ? all : all & ~(1u << left_out)};
+    return {T{features.x[lane], features.y[lane], features.z[lane]}, features.squared[lane], count == 2 && lane == 0 ? all : all & ~(1u << left_out)};
   }
 #endif
 

@@ -47,6 +47,7 @@ struct Grown {
     newest = (first + size) % 4;
     put(newest, out * (distance - std::pow(10.0, random.uniform(-5, 0.3))) + along * random.uniform(-1, 1) + across * (width * random.uniform(-1, 1)));
   }
+  Triple<double> newest_w() const { return Triple<double>::of(points[static_cast<std::size_t>(newest)].w); }
   void put(int place, const Eigen::Vector3d& w) { points[static_cast<std::size_t>(place)] = {w, w, Eigen::Vector3d::Zero(), place}; }
 };
 
@@ -58,7 +59,8 @@ TEST(GrownSimplex, TellsThePointNearestTheOrigin) {
     const int size = 1 + k % 3;
     const double width = k % 2 == 0 ? 1 : std::pow(10.0, random.uniform(-9, 0));
     const Grown grown(random, size, width);
-    const auto found = GrownSimplex<double>::closest(grown.points, grown.old, grown.newest, Triple<double>::of(grown.points[static_cast<std::size_t>(grown.newest)].w));
+    ToldInLanes<double> lanes;
+    const auto found = GrownSimplex<double>::closest(grown.points, grown.old, grown.newest, grown.newest_w(), lanes);
     ++asked;
     if (found.places == 0) continue;
     ++told;
@@ -79,7 +81,7 @@ TEST(GrownSimplex, TellsThePointNearestTheOrigin) {
     }
     ASSERT_NE(found.places >> grown.newest & 1, 0u);
     std::array<double, 4> weights;
-    GrownSimplex<double>::weigh(grown.points, found.places, grown.newest, weights);
+    GrownSimplex<double>::weigh(grown.points, found.places, grown.newest, lanes, weights);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double all = 0;
     for (std::size_t i = 0; i < 4; ++i)
@@ -102,12 +104,40 @@ TEST(GrownSimplex, TellsNothingOfWhatIsNoNumber) {
   for (int k = 0; k < 300; ++k) {
     Grown grown(random, 1 + k % 3, 1);
     grown.points[static_cast<std::size_t>(grown.newest)].w[k % 3] = std::numeric_limits<double>::quiet_NaN();
-    const auto found = GrownSimplex<double>::closest(grown.points, grown.old, grown.newest, Triple<double>::of(grown.points[static_cast<std::size_t>(grown.newest)].w));
+    ToldInLanes<double> lanes;
+    const auto found = GrownSimplex<double>::closest(grown.points, grown.old, grown.newest, grown.newest_w(), lanes);
     EXPECT_FALSE(found.places != 0 && found.v_squared < std::numeric_limits<double>::infinity()) << k;
   }
 }
 
 #ifdef GJKDBG_AVX2
+/// Where lanes tell, they tell what is told without, number by number; and that is the rule.
+TEST(GrownSimplex, TellsTheSameInLanes) {
+  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "this processor has no AVX2";
+  RandomNumbers random(7);
+  int told = 0, asked = 0, edges = 0;
+  for (int k = 0; k < 40000; ++k) {
+    const Grown grown(random, 2 + k % 2, k % 4 < 2 ? 1 : std::pow(10.0, random.uniform(-9, 0)));
+    ToldInLanes<double> lanes;
+    const auto found = GrownSimplex<double>::closest(grown.points, grown.old, grown.newest, grown.newest_w(), lanes);
+    ++asked;
+    if (lanes.lane < 0) continue;
+    ++told, edges += count_of(found.places) == 2;
+    const auto alone = GrownSimplex<double>::one_by_one(grown.points, grown.old, grown.newest);
+    ASSERT_EQ(found.places, alone.places) << k;
+    ASSERT_EQ(found.v_squared, alone.v_squared) << k;
+    for (const auto& [x, y] : {std::pair(found.x, alone.x), std::pair(found.y, alone.y), std::pair(found.z, alone.z)}) ASSERT_EQ(x, y) << k;
+    std::array<double, 4> weights{}, anew{};
+    GrownSimplex<double>::weigh(grown.points, found.places, grown.newest, lanes, weights);
+    GrownSimplex<double>::weigh_anew(grown.points, found.places, grown.newest, anew);
+    for (std::size_t i = 0; i < 4; ++i)
+      if ((found.places >> i & 1) != 0) ASSERT_EQ(weights[i], anew[i]) << k << ", vertex " << i;
+  }
+  EXPECT_GT(told, asked / 2);
+  EXPECT_GT(edges, asked / 50);
+  std::printf("lanes told of %d of %d simplices, %d edges\n", told, asked, edges);
+}
+
 PointSet random_hull_of(int vertices) {
   RandomNumbers random(static_cast<unsigned>(vertices));
   PointSet hull;
