@@ -163,8 +163,10 @@ class Gjk {
   /// Takes the newest point and cuts the simplex down to the feature nearest the origin; false when that is no nearer than before (NaN included).
   [[gnu::always_inline]] bool reduce() {
     if constexpr (grows<SubAlgorithm>) {
-      const auto nearest = SubAlgorithm::Grown::closest(result_.simplex.points, places_, newest_, newest_w_, steps_.lanes);
-      if (nearest.places != 0) [[likely]] return accept(nearest);
+      bool told = true;
+      const bool nearer = SubAlgorithm::Grown::find(result_.simplex.points, places_, newest_, newest_w_, steps_.lanes,
+                                                    [&](const auto& nearest) __attribute__((always_inline)) { return nearest.places != 0 ? accept(nearest) : told = false; });
+      if (told) [[likely]] return nearer;
     }
     places_ |= 1u << newest_;
     return accept(of_list(opinion));
@@ -200,12 +202,12 @@ class Gjk {
   /// Weights are found when somebody wants them.
   template <class Nearest>
   [[gnu::always_inline]] bool accept(const Nearest& nearest) {
-    if (nearest.encloses() ? lower_bound_ > 0 : !falls_to(nearest.v(), nearest.v_squared)) [[unlikely]] return SubAlgorithm::Grown::forget(steps_.lanes), false;
+    if (nearest.encloses() ? lower_bound_ > 0 : !falls_to(nearest.v, nearest.v_squared)) [[unlikely]] return SubAlgorithm::Grown::forget(steps_.lanes), false;
     enclosed_ = nearest.encloses();
     if constexpr (traced<Trace>) places_ |= 1u << newest_, before_ = vertex_numbers();
     places_ = nearest.places;
     grown_by_ = newest_, weighed_ = false;
-    advance_to(nearest.v(), nearest.v_squared);
+    advance_to(nearest.v, nearest.v_squared);
     return true;
   }
   /// Newton's directions bring |v| to its least before it falls by no more than it rounds, where |v| is known to a floor only.

@@ -11,7 +11,7 @@
 //             and something is left for a, inside
 //
 // All vectors but a are short, every product serves several of these, and everything stays in registers: next to the support this is the longest part of an iteration, each
-// number of which waits for the one before.
+// number of which waits for the one before. Where a processor can, a triangle's features and a solid's faces are looked at side by side (algo/grown_lanes.h).
 //
 // Where plain arithmetic may not know a sign, or a triangle is thin, what seems nearest is taken if it proves itself: v is the closest point iff no vertex lies nearer along
 // it, v . w_i >= |v|^2 for all i. Where that fails by more than v rounds nothing is told, and the caller asks algo/signed_volumes.h.
@@ -41,32 +41,35 @@ class GrownSimplex {
 
  public:
   struct Nearest {
-    S x = 0, y = 0, z = 0, v_squared = 0;
+    T v{0, 0, 0};
+    S v_squared = 0;
     unsigned places = 0;  ///< of the feature's vertices; 0: not told
-    Nearest() = default;
-    [[gnu::always_inline]] Nearest(const T& v, S squared, unsigned of) : x(v.x), y(v.y), z(v.z), v_squared(squared), places(of) {}
-    [[gnu::always_inline]] Nearest(const Nearest& n) : x(n.x), y(n.y), z(n.z), v_squared(n.v_squared), places(n.places) {}
-    [[gnu::always_inline]] Nearest& operator=(const Nearest& n) { x = n.x, y = n.y, z = n.z, v_squared = n.v_squared, places = n.places; return *this; }
-    [[gnu::always_inline]] T v() const { return {x, y, z}; }
 
     bool encloses() const { return places == 0b1111; }  ///< the origin is inside, and v zero
   };
 
-  /// The old vertices' places, at most three, and the newest one's, whose w is a. `lanes`: for `weigh`.
-  [[gnu::always_inline]] static Nearest closest(const Points& points, unsigned old, int newest, const T a, ToldInLanes<S>& lanes) {
+  /// Hands the nearest to `take`, from wherever it is found: a number that several ways lead to goes through memory. The old vertices' places, at most three, and the newest one's, whose
+  /// w is a. `lanes`: for `weigh`.
+  template <class Take>
+  [[gnu::always_inline]] static bool find(const Points& points, unsigned old, int newest, const T a, ToldInLanes<S>& lanes, const Take& take) {
     forget(lanes);
-    if (old == 0) return told(a, 1u << newest);
+    if (old == 0) return take(told(a, 1u << newest));
     const Old places(old);
-    if (places.count == 1) return along(Edge(points, a, newest, places.i));
+    if (places.count == 1) return take(along(Edge(points, a, newest, places.i)));
 #ifdef GJKDBG_AVX2
     if constexpr (sizeof(S) == 8)
       if (__builtin_cpu_supports("avx2")) {
-        const Nearest found = in_lanes(points, places, newest, lanes);
-        if (found.places != 0) [[likely]] return found;
-        return one_by_one(points, old, newest);
+        if (const Nearest found = in_lanes(points, places, newest, lanes); found.places != 0) [[likely]] return take(found);
+        return take(one_by_one(points, old, newest));
       }
 #endif
-    return of_features(points, places, newest, a);
+    return take(of_features(points, places, newest, a));
+  }
+  /// The nearest itself.
+  static Nearest closest(const Points& points, unsigned old, int newest, const T a, ToldInLanes<S>& lanes) {
+    Nearest nearest;
+    find(points, old, newest, a, lanes, [&](const Nearest& found) { return nearest = found, true; });
+    return nearest;
   }
   /// The same without lanes, of two old vertices at least.
   [[gnu::noinline]] static Nearest one_by_one(const Points& points, unsigned old, int newest) { return of_features(points, Old(old), newest, T::of(points[newest].w)); }
@@ -159,7 +162,7 @@ class GrownSimplex {
     if (lane < 0) [[unlikely]] return {};
     told.lane = lane;
     const unsigned all = 1u << newest | 1u << i | 1u << j | 1u << k;
-    return {T{features.x[lane], features.y[lane], features.z[lane]}, features.squared[lane], count == 2 && lane == 0 ? all : all & ~(1u << left_out)};
+    return {{features.x[lane], features.y[lane], features.z[lane]}, features.squared[lane], count == 2 && lane == 0 ? all : all & ~(1u << left_out)};
   }
 #endif
 
@@ -196,7 +199,7 @@ class GrownSimplex {
   [[gnu::noinline]] static Nearest across_thin(const Edge& i, const Edge& j, const T& n) {
     const Nearest found = in_triangle(i, j, n);
     if (count_of(found.places) == 3) {
-      const T off = i.a + i.e * (-n.dot(j.c) / n.dot(n)) + j.e * (n.dot(i.c) / n.dot(n)) - found.v();
+      const T off = i.a + i.e * (-n.dot(j.c) / n.dot(n)) + j.e * (n.dot(i.c) / n.dot(n)) - found.v;
       constexpr S rounding = 16 * std::numeric_limits<S>::epsilon();
       if (!(off.dot(off) <= rounding * rounding * i.a.dot(i.a))) return {};
     }
@@ -213,7 +216,7 @@ class GrownSimplex {
     const bool by_ij = (beyond_ij > 0) == out, by_jk = (beyond_jk > 0) == out, by_ki = (beyond_ki > 0) == out;
     if (!(by_ij | by_jk | by_ki)) {
       const S left = beyond_ij + beyond_jk + beyond_ki + volume;
-      if (std::abs(left) > 5 * error && (left > 0) == out) return {T{0, 0, 0}, 0, 0b1111};
+      if (std::abs(left) > 5 * error && (left > 0) == out) return {{0, 0, 0}, 0, 0b1111};
       return {};
     }
     Nearest best;
@@ -241,7 +244,7 @@ class GrownSimplex {
   /// By how much the proof fails bounds the error of |v| (times |v|). The product rounds by the vertices' size.
   [[gnu::always_inline]] static Nearest proven(const Nearest& found, std::initializer_list<T> vertices) {
     S least = found.v_squared, far = 0;
-    for (const T& w : vertices) least = std::min(least, found.v().dot(w)), far = std::max(far, w.dot(w));
+    for (const T& w : vertices) least = std::min(least, found.v.dot(w)), far = std::max(far, w.dot(w));
     const S gap = found.v_squared - least;
     constexpr S rounding = 16 * std::numeric_limits<S>::epsilon();
     return gap * gap <= rounding * rounding * found.v_squared * far ? found : Nearest{};

@@ -72,7 +72,7 @@ TEST(GrownSimplex, TellsThePointNearestTheOrigin) {
     const auto signed_volumes = SignedVolumes<3, double>::closest(w.data(), count);
     ASSERT_EQ(found.encloses(), signed_volumes.enclosed) << "simplex " << k;
     enclosing += found.encloses();
-    const Eigen::Vector3d v = found.v().vector();
+    const Eigen::Vector3d v = found.v.vector();
     if (!found.encloses()) {
       const auto wide = WideClosestPoint<3, double>::of_boundary(w.data(), count);
       EXPECT_NEAR(v.norm(), std::sqrt(wide.v_squared), 1e-12 * far) << "simplex " << k;  // a normal's last digits, by the sine of 1e-3 from which a triangle is thin
@@ -126,7 +126,7 @@ TEST(GrownSimplex, TellsTheSameInLanes) {
     const auto alone = GrownSimplex<double>::one_by_one(grown.points, grown.old, grown.newest);
     ASSERT_EQ(found.places, alone.places) << k;
     ASSERT_EQ(found.v_squared, alone.v_squared) << k;
-    for (const auto& [x, y] : {std::pair(found.x, alone.x), std::pair(found.y, alone.y), std::pair(found.z, alone.z)}) ASSERT_EQ(x, y) << k;
+    for (const auto& [x, y] : {std::pair(found.v.x, alone.v.x), std::pair(found.v.y, alone.v.y), std::pair(found.v.z, alone.v.z)}) ASSERT_EQ(x, y) << k;
     std::array<double, 4> weights{}, anew{};
     GrownSimplex<double>::weigh(grown.points, found.places, grown.newest, lanes, weights);
     GrownSimplex<double>::weigh_anew(grown.points, found.places, grown.newest, anew);
