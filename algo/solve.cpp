@@ -45,9 +45,10 @@ Result solve_convex(const Body& a, const Body& b, const Query query, const Setti
   return result;
 }
 
+/// Of two parts that overlap, one by a depth that was not asked for: its cores do, of the other no more than the radii, which they all share.
 bool nearer(const Result& x, const Result& y) {
   if (x.signed_distance && y.signed_distance) return *x.signed_distance < *y.signed_distance;
-  return x.intersecting && !y.intersecting;
+  return x.intersecting && (!y.intersecting || (!x.signed_distance && y.signed_distance));
 }
 
 /// Of a part whose search came to its limit: whether what is known of it leaves open that it is nearer than `nearest`.
@@ -71,6 +72,7 @@ void merge(std::optional<Result>& total, const Result& part) {
   merged.iterations = total->iterations + part.iterations;
   merged.support_calls = total->support_calls + part.support_calls;
   if (part.lower_bound && total->lower_bound) merged.lower_bound = std::min(*part.lower_bound, *total->lower_bound);
+  else merged.lower_bound.reset();  // what is not known of a part is not known of the whole
   if (part.upper_bound && total->upper_bound) merged.upper_bound = std::min(*part.upper_bound, *total->upper_bound);
   total = merged;
 }

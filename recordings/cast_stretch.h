@@ -47,13 +47,17 @@ struct CastStretch {
   }
   /// The same of two parts of meshes: of all the one that is nearest to what is said.
   static double along(const Scene& two, const AnyVector& n, double said) {
+    const auto heights = [&](std::size_t body, const AnyVector& d) {
+      std::vector<double> of_parts;
+      for (const Shape& part : convex_parts(two.bodies[body].shape))
+        of_parts.push_back(n.dot(WorldSupport(Body{two.bodies[body].name, part, two.bodies[body].pose}, two.dimension)(d, true)));
+      return of_parts;
+    };
+    const std::vector<double> near = heights(1, -n);
     double best = std::numeric_limits<double>::infinity();
-    for (const Shape& a : convex_parts(two.bodies[0].shape))
-      for (const Shape& b : convex_parts(two.bodies[1].shape)) {
-        Scene parts = two;
-        parts.bodies[0].shape = a, parts.bodies[1].shape = b;
-        if (const double one = along(parts, n); std::abs(one - said) < std::abs(best - said)) best = one;
-      }
+    for (const double a : heights(0, n))
+      for (const double b : near)
+        if (std::abs(b - a - said) < std::abs(best - said)) best = b - a;
     return best;
   }
 

@@ -96,11 +96,12 @@ CheckContext::CheckContext(const Recording& r, const Recording& as_written, doub
   if (!has_supports) return;
   a_.emplace(bodies[0], dimension), b_.emplace(bodies[1], dimension);
   radius_ = a_->radius() + b_->radius();
-  // Whose vertices are these? The first query with a direction tells, of MPR's only where there are no others.
+  // Whose vertices are these? Of a simplex that was kept, those of the cores. Else the first query with a direction tells, of MPR's only where there are no others.
+  const bool kept = !foreign(r) && std::any_of(r.events.begin(), r.events.end(), [](const Event& event) { return std::holds_alternative<recorded::VertexKept>(event); });
   for (const bool of_mpr : {true, false})
     for (const Event& event : r.events) {
       const auto* q = std::get_if<recorded::SupportQueried>(&event);
-      if (!q || (q->phase == Phase::mpr) != of_mpr || !q->direction.allFinite() || q->direction.isZero(0) || radius_ == 0) continue;
+      if (!q || (q->phase == Phase::mpr) != of_mpr || kept || !q->direction.allFinite() || q->direction.isZero(0) || radius_ == 0) continue;
       const double along = q->direction.stableNormalized().dot(q->w);
       cores = true;  // which `height` goes by
       told_cores_ = std::abs(along - height(q->direction)) <= std::abs(along - body_height(q->direction));

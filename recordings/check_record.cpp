@@ -83,10 +83,11 @@ RecordCheck::Number RecordCheck::right_iteration(const E& e) const {
   else return std::max<Number>(0, iteration_) + (std::is_same_v<E, recorded::PointsProjected> ? 1 : 0);
 }
 
-/// Ours looks exactly where the step before leads.
+/// Ours looks exactly where the step before leads. Below the normal numbers what the file holds of that is known to no more than the least number there is, each coordinate to half of it.
 void RecordCheck::leads_on(const AnyVector& direction, const AnyVector& from, const char* what, double slack) {
   if (from.size() != direction.size() || !from.allFinite() || from.isZero(0)) return;
-  if ((direction.stableNormalized() - from.stableNormalized()).norm() > slack) contradiction("The direction is " + text_of(direction) + ", but " + what + " leads along " + text_of(from) + ".");
+  const double lost = std::numeric_limits<double>::denorm_min() / c_.unit / from.stableNorm();
+  if ((direction.stableNormalized() - from.stableNormalized()).norm() > slack + 2 * lost) contradiction("The direction is " + text_of(direction) + ", but " + what + " leads along " + text_of(from) + ".");
 }
 
 void RecordCheck::next_in_line(const char* what, Number number, Number& last) {

@@ -18,7 +18,7 @@ class Runs {
   void run() {
     if (!by_gjk()) return;
     for (std::size_t i = 0; i < events_.size() && told_ < enough; ++i)
-      if (std::holds_alternative<recorded::GjkBegan>(events_[i])) judge(i, end_of(i));
+      if (std::holds_alternative<recorded::GjkBegan>(events_[i]) && !begins_again(c_.recording, i)) judge(i, end_of(i));
   }
 
  private:
@@ -41,7 +41,7 @@ class Runs {
 
   std::size_t end_of(std::size_t first) const {
     std::size_t i = first + 1;
-    while (i < events_.size() && of_a_run(events_[i])) ++i;
+    while (i < events_.size() && (of_a_run(events_[i]) || begins_again(c_.recording, i))) ++i;
     return i;
   }
   static bool of_a_run(const Event& e) {
@@ -57,11 +57,13 @@ class Runs {
     if (std::any_of(frame.places.begin(), frame.places.end(), [](const Frame::Place& p) { return !(p.position.stableNorm() <= 1e60); })) return;  // told elsewhere
     const Part run{first, last};
     std::optional<Candidate> likeliest;
-    if (clean(frame, frame.pair, run, likeliest)) return;
     const bool named = last < events_.size() && (std::holds_alternative<recorded::CastAdvanced>(events_[last]) || std::holds_alternative<recorded::ContactFound>(events_[last]));
-    for (int i = 0; !named && i < bodies; ++i)
-      for (int j = i + 1; j < bodies; ++j)
-        if (near(frame, {i, j}) && clean(frame, {i, j}, run, likeliest)) return;
+    for (const bool fitting : {true, false}) {
+      if (clean(frame, frame.pair, run, fitting, likeliest)) return;
+      for (int i = 0; !named && i < bodies; ++i)
+        for (int j = i + 1; j < bodies; ++j)
+          if (near(frame, {i, j}) && clean(frame, {i, j}, run, fitting, likeliest)) return;
+    }
     if (!likeliest) return;
     ++told_;
     tell(frame, *likeliest, run);
@@ -95,23 +97,24 @@ class Runs {
     return run;
   }
 
-  /// The triangle of each body, -1 of one that is no mesh: the one that the supports tell first, then all others, which may fit a short run as well.
-  std::vector<Two> triangles_of(const Frame& frame, const Two& pair, std::size_t first) const {
+  /// The triangle of each body, -1 of one that is no mesh: those that the supports fit (neighbours share corners), or all, which a wrong run is held against.
+  std::vector<Two> triangles_of(const Frame& frame, const Two& pair, std::size_t first, bool fitting) const {
     Two counts{-1, -1};
     for (std::size_t k = 0; k < 2; ++k)
       if (const auto* mesh = std::get_if<Mesh>(&c_.recording.scene.scene.bodies[static_cast<std::size_t>(pair[k])].shape.geometry)) counts[k] = static_cast<int>(mesh->triangles.size());
-    std::vector<Two> all;
+    if (counts == Two{-1, -1}) return fitting ? std::vector{counts} : std::vector<Two>();
     Frame of = frame;
     of.pair = pair, of.step = first;
-    if (const std::optional<MeshParts> parts = mesh_parts(c_.recording, of)) all.push_back(parts->triangle);
+    if (fitting) return fitting_triangles(c_.recording, of);
+    std::vector<Two> all;
     for (int i = counts[0] < 0 ? -1 : 0; i < std::max(0, counts[0]); ++i)
       for (int j = counts[1] < 0 ? -1 : 0; j < std::max(0, counts[1]); ++j) all.push_back({i, j});
     return all;
   }
 
   /// Whether there is nothing to find in the run, taken for one of these two bodies. Else those are the likeliest that it fits longest, or the first of all.
-  bool clean(const Frame& frame, const Two& pair, const Part& part, std::optional<Candidate>& likeliest) const {
-    for (const Two& triangles : triangles_of(frame, pair, part.first)) {
+  bool clean(const Frame& frame, const Two& pair, const Part& part, bool fitting, std::optional<Candidate>& likeliest) const {
+    for (const Two& triangles : triangles_of(frame, pair, part.first, fitting)) {
       Candidate one{pair, triangles, 0};
       Recording run = run_of(frame, one);
       run.events.assign(events_.begin() + static_cast<std::ptrdiff_t>(part.first), events_.begin() + static_cast<std::ptrdiff_t>(part.last));

@@ -10,13 +10,14 @@ namespace gjkdbg {
 namespace {
 
 /// Scenes at rest go through all pairs of triangles in order. Every run begins as the first did: MPR and SAT may hand over to GJK, GJK to MPR.
-int runs_begun(const std::vector<Event>& events, std::size_t step) {
+int runs_begun(const Recording& recording, std::size_t step) {
+  const std::vector<Event>& events = recording.events;
   std::optional<std::size_t> first;
   int run = -1;
   for (std::size_t i = 0; i <= step; ++i) {
     if (!kind_name(events[i]).ends_with("_began")) continue;
     if (!first) first = events[i].index();
-    run += events[i].index() == *first;
+    run += events[i].index() == *first && !begins_again(recording, i);
   }
   return run;
 }
@@ -50,16 +51,33 @@ bool fits(const std::array<AnyVector, 3>& corners, double margin, std::size_t bo
   });
 }
 
-std::optional<int> triangle_that_fits(const Mesh& mesh, double margin, const Frame::Place& place, std::size_t body, const std::vector<const recorded::SupportQueried*>& supports) {
+std::vector<int> triangles_that_fit(const Mesh& mesh, double margin, const Frame::Place& place, std::size_t body, const std::vector<const recorded::SupportQueried*>& supports) {
+  std::vector<int> found;
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
     std::array<AnyVector, 3> corners;
     for (std::size_t i = 0; i < 3; ++i) corners[i] = place.rotation * mesh.points[static_cast<std::size_t>(mesh.triangles[k][i])] + place.position;
-    if (fits(corners, margin, body, supports)) return static_cast<int>(k);
+    if (fits(corners, margin, body, supports)) found.push_back(static_cast<int>(k));
   }
-  return std::nullopt;
+  return found;
 }
 
 }  // namespace
+
+std::vector<std::array<int, 2>> fitting_triangles(const Recording& recording, const Frame& frame) {
+  const Scene& scene = recording.scene.scene;
+  const auto supports = supports_of_run(recording.events, frame.step);
+  if (supports.empty() || frame.places.size() != scene.bodies.size()) return {};
+  std::array<std::vector<int>, 2> found{{{-1}, {-1}}};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto body = static_cast<std::size_t>(frame.pair[i]);
+    const Shape& shape = scene.bodies[body].shape;
+    if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) found[i] = triangles_that_fit(*mesh, shape.margin, frame.places[body], i, supports);
+  }
+  std::vector<std::array<int, 2>> pairs;
+  for (const int i : found[0])
+    for (const int j : found[1]) pairs.push_back({i, j});
+  return pairs;
+}
 
 std::optional<MeshParts> mesh_parts(const Recording& recording, const Frame& frame) {
   const Scene& scene = recording.scene.scene;
@@ -76,20 +94,15 @@ std::optional<MeshParts> mesh_parts(const Recording& recording, const Frame& fra
   MeshParts parts;
   parts.runs = counts[0] * counts[1];
   if (!scene.motion) {
-    parts.run = runs_begun(recording.events, frame.step);
+    parts.run = runs_begun(recording, frame.step);
     if (parts.run < 0 || parts.run >= parts.runs) return std::nullopt;
     if (meshes[0]) parts.triangle[0] = parts.run / counts[1];
     if (meshes[1]) parts.triangle[1] = parts.run % counts[1];
     return parts;
   }
-  const auto supports = supports_of_run(recording.events, frame.step);
-  if (supports.empty() || frame.places.size() != scene.bodies.size()) return std::nullopt;
-  for (std::size_t i = 0; i < 2; ++i) {
-    if (!meshes[i]) continue;
-    const auto found = triangle_that_fits(*meshes[i], scene.bodies[static_cast<std::size_t>(frame.pair[i])].shape.margin, frame.places[static_cast<std::size_t>(frame.pair[i])], i, supports);
-    if (!found) return std::nullopt;
-    parts.triangle[i] = *found;
-  }
+  const std::vector<std::array<int, 2>> fit = fitting_triangles(recording, frame);
+  if (fit.empty()) return std::nullopt;
+  parts.triangle = fit.front();
   parts.run = std::max(0, parts.triangle[0]) * counts[1] + std::max(0, parts.triangle[1]);
   return parts;
 }

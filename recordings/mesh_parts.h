@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "recordings/replay.h"
 
@@ -15,5 +16,8 @@ struct MeshParts {
 
 /// Of the run that the frame's step belongs to. Unset where neither body is a mesh, where nothing runs, or where no triangle fits.
 std::optional<MeshParts> mesh_parts(const Recording& recording, const Frame& frame);
+
+/// Of a motion, where triangles that cannot be met are left out: all that the supports of the step's run fit, of which the first is taken for it; -1 of a body that is no mesh.
+std::vector<std::array<int, 2>> fitting_triangles(const Recording& recording, const Frame& frame);
 
 }  // namespace gjkdbg

@@ -76,6 +76,9 @@ struct Recording {
   Result result;
 };
 
+/// Whether GJK begins once more here, on the same bodies, where its first run has stalled (algo/run_gjk.h): along -v, which no other run begins with.
+bool begins_again(const Recording& recording, std::size_t step);
+
 /// Keeps every event of a run.
 class Recorder final : public SinkTaking<Recorder> {
  public:

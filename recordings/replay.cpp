@@ -268,7 +268,7 @@ struct Apply {
     const recorded::SupportQueried* first = nullptr;
     for (std::size_t i = step + 1; i < recording.events.size(); ++i) {
       const Event& event = recording.events[i];
-      if (kind_name(event).ends_with("_began") || std::holds_alternative<recorded::State>(event)) break;
+      if ((kind_name(event).ends_with("_began") && !begins_again(recording, i)) || std::holds_alternative<recorded::State>(event)) break;
       if (const auto* advanced = std::get_if<recorded::CastAdvanced>(&event)) {
         frame.pair = advanced->pair;
         return advance_to(advanced->time);

@@ -374,5 +374,19 @@ TEST(EdgeCases, ABoxSmallerThanItsSquares) {
   }
 }
 
+/// Of one triangle the core lies in the box, of the other only the margin: the whole is deeper than the margin, by as much as was not asked for.
+TEST(EdgeCases, AMeshIsAsDeepAsItsDeepestPart) {
+  for (const char* triangles : {"[[0, 1, 2], [3, 4, 5]]", "[[3, 4, 5], [0, 1, 2]]"}) {
+    const Scene scene = scene_of(R"("dimension": 3, "bodies": [{"shape": {"type": "mesh", "margin": 0.5, "points": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.25], [1, 0, 1.25], [0, 1, 1.25]], "triangles": )" + std::string(triangles) +
+                                 R"(}}, {"shape": {"type": "box", "half_extents": [1, 1, 1]}}])");
+    Method no_depth;
+    no_depth.penetration = Penetration::none;
+    const Result r = run(scene, no_depth);
+    EXPECT_TRUE(r.intersecting);
+    EXPECT_FALSE(r.signed_distance || r.lower_bound || r.normal);
+    EXPECT_NEAR(*r.upper_bound, -0.5, 1e-15);
+  }
+}
+
 }  // namespace
 }  // namespace gjkdbg

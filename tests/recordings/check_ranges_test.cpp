@@ -265,5 +265,16 @@ TEST(CheckRanges, SimulationsOfTinyBodies) {
   }
 }
 
+/// Below the normal numbers a file holds the nearest point to few digits: the direction along it has all of them.
+TEST(CheckRanges, LengthsBelowTheNormalNumbers) {
+  for (const std::string size : {"e-310", "e-312"}) {
+    const Recording flat = of_bodies(2, "penetration", R"({"type": "ellipse", "radii": [1.2)" + size + ", 1.714" + size + "]}", "[0, 0]", R"({"type": "box", "half_extents": [1.8)" + size + ", 1.2" + size + "]}", "[3" + size + ", 0]");
+    EXPECT_EQ(all_said_of(flat), "") << size;
+    const Recording solid = of_bodies(3, "penetration", R"({"type": "ellipsoid", "radii": [1.947)" + size + ", 0.5" + size + ", 1.919" + size + "]}", "[0, 0, 0]",
+                                      R"({"type": "box", "half_extents": [1.053)" + size + ", 2.017" + size + ", 1.112" + size + "]}", "[3" + size + ", 0, 0]");
+    EXPECT_EQ(all_said_of(solid), "") << size;
+  }
+}
+
 }  // namespace
 }  // namespace gjkdbg
