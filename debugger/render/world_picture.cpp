@@ -188,7 +188,6 @@ class WorldPainter : public Painter {
     }
   }
 
-
   /// A point of each body, looking for the one nearest to the other; and where the next look begins.
   void projected() {
     if (frame_.predicted) {
@@ -234,8 +233,9 @@ class WorldPainter : public Painter {
     picture_.points.push_back({a, palette_.body_a, 6, Mark::disc, -1});
     picture_.points.push_back({b, palette_.body_b, 6, Mark::disc, -1});
     const double beside = (a - b).dot(projection_.up()) >= 0 ? -12 : 12;  // the upper one's name above it, the lower one's below
-    label(a, "witness a", palette_.body_a, 9, beside);
-    label(b, "witness b", palette_.body_b, 9, -beside);
+    const std::string witness = projection_.rectangle().width < 280 * settings_.scale ? "" : "witness ";  // a small view has no room for the word beside the point
+    label(a, witness + "a", palette_.body_a, 9, beside);
+    label(b, witness + "b", palette_.body_b, 9, -beside);
     if (r.normal) {
       const ViewPoint tip = tip_in_view(a, arrow_along(*r.normal, normal_arrow));
       picture_.arrow(a, tip, palette_.frontier);
