@@ -98,7 +98,9 @@ class App {
   void lecture_place(const std::string& place);
   float lecture_scale(float window_height) const;
   void panels(const Area& window);
-  void small_panels(const Area& window);
+  bool is_low(const Area& window) const;
+  float scrubber_height() const;
+  void small_panels(const Area& window, float top);
   void splitter(const char* name, const Area& area, bool vertical, float& value, float low, float high, float sign);
   void banner(const Area& area);
   void key_sheet();
@@ -174,6 +176,8 @@ void view_panels(App& app, const Area& area, bool interactive);
 
 /// A borderless child window over an area; call ImGui::EndChild after it.
 bool begin_area(const char* name, const Area& area, bool scrolls = false);
+/// The same, with less of a margin where it is low.
+bool begin_panel(const Theme& theme, const char* name, const Area& area, bool scrolls = false);
 /// What is left of a panel, scrolled for itself. Like begin_area, to be ended by ImGui::EndChild.
 bool begin_list(const char* name);
 void section(const Theme& theme, const char* title);

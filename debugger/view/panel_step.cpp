@@ -281,7 +281,7 @@ std::string place_text(Session& session) {
 }
 
 void step_panel(App& app, const Area& area) {
-  if (!begin_area("step", area, true)) return ImGui::EndChild();
+  if (!begin_panel(app.theme, "step", area, true)) return ImGui::EndChild();
   way_back(app);
   heading(app);
   scene_note(app);

@@ -237,24 +237,24 @@ void one_view(App& app, const Area& area, const Shown& shown, bool interactive, 
   ImDrawList* draw = ImGui::GetWindowDrawList();
   Camera& camera = shown.world ? app.world_camera : app.difference_camera;
   const float large = std::max(1.f, theme.marks / 1.4f);  // in a hall, as large as the sentence
-  const bool low = area.height < theme.px(140);  // the title alone
-  const double header = theme.px(low ? 30 : 48) * large;
+  const bool low = area.height < theme.px(140), flat = area.height < theme.px(105);  // the title alone; and nothing kept free for it
+  const double header = flat ? 0 : theme.px(low ? 30 : 48) * large;
   const Projection projection(camera, {area.x, area.y + header * 0.6, area.width, area.height - header * 0.6});
   app.settings.scale = theme.px(theme.marks);
   const auto make = shown.world ? world_picture : difference_picture;
   const Recording& recording = shown.other ? s.other() : s.recording();
-  const float solid = theme.px(low ? 22 : 38) * large, faded = theme.px(low ? 34 : 56) * large;
+  const float solid = flat ? 0 : theme.px(low ? 22 : 38) * large, faded = flat ? 0 : theme.px(low ? 34 : 56) * large;
   Picture picture = make(shown.other ? s.other_meshes() : s.meshes(), recording, shown.other ? s.other_frame() : s.frame(), app.settings, theme.palette, projection);
-  picture.covered = (solid + faded) / 2 - header * 0.6;
+  picture.covered = flat ? theme.px(16) : (solid + faded) / 2 - header * 0.6;
   const auto items = flatten(picture, projection, theme.px(theme.marks));
   draw_items(draw, items, theme);
   // What is drawn fades out below the title.
   const ImU32 cover = packed(theme.palette.view), clear = packed(theme.palette.view.with_alpha(0));
   draw->AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + solid}, packed(theme.palette.view.with_alpha(1)));
   draw->AddRectFilledMultiColor({area.x, area.y + solid}, {area.x + area.width, area.y + faded}, cover, cover, clear, clear);
-  const ImVec2 title{area.x + theme.px(14), area.y + theme.px(low ? 4 : 10)};
+  const ImVec2 title{area.x + theme.px(flat ? 8 : 14), area.y + theme.px(flat ? 2 : low ? 4 : 10)};
   const float room = area.x + area.width - theme.px(8) - title.x;
-  draw->AddText(theme.text, theme.text->FontSize * large, title, packed(shown.other ? theme.palette.text_soft : theme.palette.text), title_of(app, shown, room / large).c_str());
+  draw->AddText(theme.text, theme.text->FontSize * (flat ? 0.85f : large), title, packed(shown.other ? theme.palette.text_soft : theme.palette.text), title_of(app, shown, room / large).c_str());
   if (!low) draw->AddText(theme.small, theme.small->FontSize * large, {title.x, title.y + theme.px(20) * large}, packed(theme.palette.text_faint), shortened(theme.small, subtitle_of(app, shown), room / large).c_str());
   if (interactive) interact(app, area, shown, camera, projection, items, pointed);
   ImGui::EndChild();

@@ -16,6 +16,14 @@ bool begin_area(const char* name, const Area& area, bool scrolls) {
                            ImGuiWindowFlags_AlwaysUseWindowPadding | (scrolls ? 0 : ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse));
 }
 
+bool begin_panel(const Theme& theme, const char* name, const Area& area, bool scrolls) {
+  const bool low = area.height < theme.px(100);
+  if (low) ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {theme.px(10), theme.px(7)});
+  const bool seen = begin_area(name, area, scrolls);
+  if (low) ImGui::PopStyleVar();  // tooltips have theirs
+  return seen;
+}
+
 bool begin_list(const char* name) { return ImGui::BeginChild(name, {0, 0}, false); }
 
 void section(const Theme& theme, const char* title) {
