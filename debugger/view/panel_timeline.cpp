@@ -1,4 +1,6 @@
 // Below the views: transport, scrubber, event list, bounds.
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -332,11 +334,15 @@ void event_list(App& app, float width, float height) {
   ImGui::PushStyleColor(ImGuiCol_ChildBg, vec(theme.palette.panel));
   ImGui::PushFont(theme.mono);
   const float row = ImGui::GetTextLineHeightWithSpacing(), rows = std::max(1.f, std::floor(height / row));  // whole rows only
-  ImGui::BeginChild("events", {width, rows * row}, false);
   static std::size_t shown = 0;
   static float shown_rows = 0;  // a window that has become smaller still shows the step
-  if (shown != s.step() || std::exchange(shown_rows, rows) != rows) ImGui::SetScrollY(std::max(0.f, std::round(static_cast<float>(s.step()) - rows / 2) * row));
+  if (const bool resized = std::exchange(shown_rows, rows) != rows; shown != s.step() || resized)  // before the list begins, or it would follow a frame late
+    ImGui::SetNextWindowScroll({-1, std::max(0.f, std::round(static_cast<float>(s.step()) - rows / 2) * row)});
   shown = s.step();
+  ImGui::SetNextWindowContentSize({0, static_cast<float>(s.count()) * row});  // of a scene just opened, too: how far it scrolls
+  ImGui::BeginChild("events", {width, rows * row}, false);
+  const float digit = ImGui::CalcTextSize("0").x, number_end = theme.px(20) + digit * static_cast<float>(std::to_string(s.count() - 1).size());
+  const float kind = number_end + theme.px(26), details = kind + theme.px(76);
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(s.count()), row);
   while (clipper.Step())
@@ -349,15 +355,16 @@ void event_list(App& app, float width, float height) {
       if (ImGui::Selectable("##row", s.step() == k)) s.playing = false, s.go_to(k);
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s: %s", short_kind(event), summary(s.recording(), k, app.settings.newest_first).c_str());  // a row may be cut off
       row_marks(app, k, left);
-      ImGui::SameLine(theme.px(18));
-      ImGui::TextColored(vec(theme.palette.text_faint), "%5d", i);
+      const std::string number = std::to_string(i);
+      ImGui::SameLine(number_end - digit * static_cast<float>(number.size()));
+      ImGui::TextColored(vec(theme.palette.text_faint), "%s", number.c_str());
       const ImVec2 at = ImGui::GetItemRectMax();
       const float middle = at.y - ImGui::GetTextLineHeight() / 2, half = theme.px(4);
       ImGui::GetWindowDrawList()->AddRectFilled({at.x + theme.px(8), middle - half}, {at.x + theme.px(16), middle + half}, packed(event_colour(theme.palette, event)), 2);
-      ImGui::SameLine(theme.px(88));
+      ImGui::SameLine(kind);
       ImGui::TextUnformatted(short_kind(event));
-      ImGui::SameLine(theme.px(164));
-      ImGui::TextColored(vec(theme.palette.text_soft), "%s", shortened(theme.mono, summary(s.recording(), k, app.settings.newest_first), end - theme.px(164)).c_str());
+      ImGui::SameLine(details);
+      ImGui::TextColored(vec(theme.palette.text_soft), "%s", shortened(theme.mono, summary(s.recording(), k, app.settings.newest_first), end - details).c_str());
       ImGui::PopID();
     }
   ImGui::EndChild();
@@ -368,7 +375,7 @@ void event_list(App& app, float width, float height) {
 }  // namespace
 
 void timeline_panel(App& app, const Area& area) {
-  if (!begin_area("timeline", area)) return ImGui::EndChild();
+  if (!begin_panel(app.theme, "timeline", area)) return ImGui::EndChild();
   if (area.height > app.theme.px(100)) transport(app), ImGui::Dummy({0, app.theme.px(4)});
   const bool moves = app.session.scene().scene.motion.has_value();
   if (moves) time_axis(app);

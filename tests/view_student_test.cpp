@@ -1,0 +1,130 @@
+// What a student relies on: that the line of the algorithm is the one that runs, that names stand at their points, that small windows show something, that
+// the list follows the step, that a plot shows what happens.
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+
+#include "debugger/render/step_pictures.h"
+#include "debugger/view/explain.h"
+#include "tests/support/window_fixture.h"
+
+namespace gjkdbg {
+namespace {
+
+class Student : public Window {
+ protected:
+  void go_to_the_end() { session.go_to(session.count() - 1), host.frame(); }
+  std::string line() const {
+    const PseudoCode code = pseudo_code(session.recording(), session.step());
+    return code.current < 0 ? "" : code.lines[static_cast<std::size_t>(code.current)];
+  }
+};
+
+/// The one in use whose name has this within.
+const ImGuiWindow* window_in_use(std::string_view name) {
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
+    if (window->WasActive && std::string_view(window->Name).find("/" + std::string(name) + "_") != std::string_view::npos) return window;
+  return nullptr;
+}
+
+TEST_F(Student, SeesTheLineThatEndsACast) {
+  const auto at_the_end_of = [&](const char* name) {
+    app.open_gallery(name);
+    go_to_the_end();
+    return line();
+  };
+  EXPECT_EQ(at_the_end_of("cast-bullet-thin-wall"), "  if d within tolerance: hit");
+  EXPECT_EQ(at_the_end_of("cast-receding"), "  if bound <= 0: miss");
+  EXPECT_EQ(at_the_end_of("cast-rod-miss"), "  if t past the end: miss") << "the rod still comes nearer when the time is over";
+  EXPECT_EQ(at_the_end_of("cast-bounce"), "  if bound <= 0: miss") << "it moves away from the wall that it has hit last";
+  EXPECT_EQ(at_the_end_of("cast-ray"), "hit at x");
+  EXPECT_EQ(at_the_end_of("cast-at-rest"), "    if v.r >= 0: miss");
+  app.open_gallery("cast-ray");
+  SceneFile slow = session.scene();
+  slow.expect.reset();
+  slow.scene.bodies[0].motion->velocity *= 0.25;
+  ASSERT_EQ(session.edit(slow), "");
+  go_to_the_end();
+  ASSERT_EQ(session.recording().result.status, "miss");
+  EXPECT_EQ(line(), "    if x past the ray's end: miss");
+}
+
+/// In a small view the word has no room beside the point, and stood far off; the letter has, and pointing at it tells the rest.
+TEST_F(Student, FindsTheWitnessesAtTheirPoints) {
+  go_to_the_end();
+  const auto names = [&](double width) {
+    const Projection projection(app.world_camera, {0, 0, width, 200});
+    std::set<std::string> found;
+    for (const PictureLabel& label : world_picture(session.meshes(), session.recording(), session.frame(), app.settings, app.theme.palette, projection).labels) found.insert(label.text);
+    return found;
+  };
+  EXPECT_TRUE(names(400).contains("witness a") && names(400).contains("witness b"));
+  EXPECT_TRUE(names(200).contains("a") && names(200).contains("b") && !names(200).contains("witness a"));
+  for (const char* name : {"a", "b"}) EXPECT_EQ(meaning_of(name, true, session.frame(), session.recording()), meaning_of("witness a", true, session.frame(), session.recording()));
+  session.go_to(1);
+  EXPECT_NE(meaning_of("a", true, session.frame(), session.recording()).find("farthest along d"), std::string::npos);
+}
+
+TEST_F(Student, ReadsNoNumberUnderAViewsTitle) {
+  const Projection projection(Camera{}, {0, 0, 400, 300});
+  Picture picture;
+  const auto count = [&] { return flatten(picture, projection, 1).size(); };
+  picture.scale_marks.push_back({projection.target() + projection.move(0, -130), "4", {}, 0, 0, true});
+  EXPECT_EQ(count(), 1u);
+  picture.covered = 40;
+  EXPECT_EQ(count(), 0u);
+}
+
+/// A frame later was too late: while a replay plays, the list showed steps that were long over.
+TEST_F(Student, FindsTheStepInTheListAtOnce) {
+  app.open_gallery("sim-elastic-ball");
+  ASSERT_GT(session.count(), 1000u);
+  for (const std::size_t step : {std::size_t{900}, std::size_t{40}, std::size_t{500}}) {
+    session.go_to(step);
+    host.frame();
+    const ImGuiWindow* list = window_in_use("events");
+    ASSERT_TRUE(list);
+    const float row = list->ContentSize.y / static_cast<float>(session.count()), top = static_cast<float>(step) * row;
+    EXPECT_GE(top, list->Scroll.y) << step;
+    EXPECT_LE(top + row, list->Scroll.y + list->Size.y + 1) << step;
+  }
+}
+
+/// A hit at 0.03 left all of the way there in a thirtieth of the plot.
+TEST_F(Student, SeesACastOverTheTimeThatItTakes) {
+  app.open_gallery("cast-slow-approach");
+  host.frame();
+  host.click(830, 758);  // half-way across the plot
+  EXPECT_LT(session.frame().time.value_or(1), 0.02) << session.step();
+  EXPECT_GT(session.step(), 0u) << "nothing was clicked";
+}
+
+TEST_F(Student, ChoosesFromAllShapesAtOnce) {
+  host.click(178, 178);
+  host.frame();
+  const ImGuiWindow* list = ImGui::FindWindowByName("##Combo_00");
+  ASSERT_TRUE(list && list->WasActive);
+  EXPECT_EQ(list->ScrollMax.y, 0);
+}
+
+TEST(SmallestWindows, ShowTheirViews) {
+  for (const auto& [width, height, least] : {std::tuple(320, 240, 70), {1000, 240, 100}, {640, 300, 150}, {480, 360, 150}}) {
+    Headless host(width, height, 1, read_gallery(GJKDBG_GALLERY));
+    host.app().open_gallery("box-box-deep");
+    host.frame(), host.frame();
+    for (const char* name : {"world", "difference"}) {
+      const ImGuiWindow* view = window_in_use(name);
+      ASSERT_TRUE(view);
+      EXPECT_GE(view->Size.y, least) << width << " x " << height;
+    }
+    const ImGuiWindow* step = window_in_use("step");
+    ASSERT_TRUE(step);
+    EXPECT_GE(step->Size.y, 45) << "for the step's title";
+    EXPECT_LE(step->Pos.y + step->Size.y, static_cast<float>(height));
+  }
+}
+
+}  // namespace
+}  // namespace gjkdbg
