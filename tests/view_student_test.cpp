@@ -109,6 +109,33 @@ TEST_F(Student, ChoosesFromAllShapesAtOnce) {
   EXPECT_EQ(list->ScrollMax.y, 0);
 }
 
+/// Whatever heads a part of the step's panel, in every scene.
+TEST_F(Student, IsToldWhatTheHeadingsMean) {
+  for (const char* name : {"SIMPLEX, BARYCENTRIC WEIGHTS", "EVERY PART: |v|, OR A WEIGHT < 0", "SIGNED DISTANCE, BEFORE THIS STEP", "POLYTOPE", "RESULT: THE FIRST HIT", "VERTEX #3 (A), newest", "at most", "gap", "witness a"})
+    EXPECT_FALSE(glossary(name).empty()) << name;
+  for (const char* name : {"METHOD", "faces", "x"}) EXPECT_EQ(glossary(name), "") << name;
+  for (const char* name : {"box-box-deep", "2d-deep", "boolean-hit-3d", "mpr-box-box", "sat-box-box", "sat-needles", "projections-ellipses", "closed-form-capsules", "cast-ray", "cast-rod-miss", "cast-rotating-rod-roots", "cast-bounce", "sim-elastic-ball"}) {
+    app.open_gallery(name);
+    for (std::size_t i = 0; i < std::min<std::size_t>(session.count(), 60); ++i) {
+      const std::string title = pseudo_code(session.recording(), i).title;
+      EXPECT_FALSE(glossary(title).empty()) << title;
+    }
+  }
+  app.open_gallery("box-box-deep");
+  session.go_to(4);
+  host.frame(), host.frame();
+  const auto tip = [&](float x, float y) {
+    host.move(x, y);
+    host.frame(), host.frame();
+    return std::any_of(ImGui::GetCurrentContext()->Windows.begin(), ImGui::GetCurrentContext()->Windows.end(), [](const ImGuiWindow* w) { return w->WasActive && (w->Flags & ImGuiWindowFlags_Tooltip); });
+  };
+  const ImGuiWindow* step = window_in_use("step");
+  ASSERT_TRUE(step);
+  EXPECT_TRUE(tip(1040, 207)) << "SIMPLEX, BARYCENTRIC WEIGHTS";
+  EXPECT_TRUE(tip(980, 380)) << "at most";
+  EXPECT_TRUE(tip(1060, 510)) << "a line of the algorithm";
+}
+
 TEST(SmallestWindows, ShowTheirViews) {
   for (const auto& [width, height, least] : {std::tuple(320, 240, 70), {1000, 240, 100}, {640, 300, 150}, {480, 360, 150}}) {
     Headless host(width, height, 1, read_gallery(GJKDBG_GALLERY));

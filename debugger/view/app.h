@@ -169,6 +169,10 @@ void lab_panel(App& app, const Area& area);
 void way_back(App& app);
 /// What a name in a picture stands for, with its numbers; empty where it says so itself.
 std::string meaning_of(const std::string& label, bool world, const Frame& frame, const Recording& recording);
+/// What a heading or a row of the step's panel means; empty where it says so itself.
+std::string glossary(std::string_view name);
+/// A tooltip that says so, when what was drawn last is pointed at.
+void tell_meaning(const Theme& theme, const char* name);
 /// The two views, side by side or stacked, or the one chosen.
 void view_panels(App& app, const Area& area, bool interactive);
 
