@@ -109,6 +109,22 @@ TEST_F(Student, ChoosesFromAllShapesAtOnce) {
   EXPECT_EQ(list->ScrollMax.y, 0);
 }
 
+/// The picture has letters alone: what is called by a name has its letter beside it.
+TEST_F(Student, FindsTheNamedBodiesInThePicture) {
+  const auto told = [&](const char* name) {
+    app.open_gallery(name);
+    go_to_the_end();
+    return explain(session.recording(), session.frame()).text;
+  };
+  EXPECT_NE(told("cast-bullet-thin-wall").find("bullet (A) and wall (B) are"), std::string::npos) << told("cast-bullet-thin-wall");
+  EXPECT_NE(told("cast-ray").find(" A and B are"), std::string::npos) << "those are their names already";
+  SceneFile unnamed = session.scene();
+  for (Body& body : unnamed.scene.bodies) body.name.clear();
+  ASSERT_EQ(session.edit(unnamed), "");
+  go_to_the_end();
+  EXPECT_NE(explain(session.recording(), session.frame()).text.find("body A and body B are"), std::string::npos);
+}
+
 /// Whatever heads a part of the step's panel, in every scene.
 TEST_F(Student, IsToldWhatTheHeadingsMean) {
   for (const char* name : {"SIMPLEX, BARYCENTRIC WEIGHTS", "EVERY PART: |v|, OR A WEIGHT < 0", "SIGNED DISTANCE, BEFORE THIS STEP", "POLYTOPE", "RESULT: THE FIRST HIT", "VERTEX #3 (A), newest", "at most", "gap", "witness a"})

@@ -76,8 +76,7 @@ std::vector<BodyHandle> handles_of(const App& app, const Projection& projection)
   return place_handles(middles, projection, app.settings.scale);
 }
 
-/// Around its middle.
-void body_name(const App& app, ImVec2 middle, const std::string& letter, Colour colour) {
+void draw_letter(const App& app, ImVec2 middle, const std::string& letter, Colour colour) {
   const float size = app.theme.small->FontSize * app.theme.marks;
   const ImVec2 half = app.theme.small->CalcTextSizeA(size, 1e6f, 0, letter.c_str());
   ImGui::GetWindowDrawList()->AddText(app.theme.small, size, {middle.x - half.x / 2, middle.y - half.y / 2}, packed(colour), letter.c_str());
@@ -115,7 +114,7 @@ void body_handles(App& app, const Projection& projection, ImDrawList* draw, Held
     draw->AddCircleFilled(ring, radius, packed(app.theme.palette.view.with_alpha(dimension == 1 ? 1 : 0.75)), 24);  // the letter lies on a body of its own colour
     draw->AddCircle(ring, radius, packed(colour.with_alpha(near || (held.body == i && !held.turning) ? 1 : 0.7)), 24, app.theme.px(2));
     if (dimension > 1) draw->AddCircleFilled(disc, app.theme.px(3.5f), packed(colour.with_alpha(near_disc || (held.body == i && held.turning) ? 1 : 0.6)), 16);
-    body_name(app, ring, letter, colour);
+    draw_letter(app, ring, letter, colour);
     if (near && held.body < 0) ImGui::SetTooltip("drag: move %s", letter.c_str());
     if (near_disc && held.body < 0) ImGui::SetTooltip("drag: turn %s", letter.c_str());
     if ((near || near_disc) && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
@@ -154,7 +153,7 @@ void body_letters(App& app, const Projection& projection) {
     const ImVec2 c = at(projection(handles[static_cast<std::size_t>(i)].ring));
     // On a body, which has the letter's colour.
     ImGui::GetWindowDrawList()->AddCircleFilled(c, app.theme.px(dimension == 1 ? 8.f : 7.f) * app.theme.marks, packed(app.theme.palette.view.with_alpha(dimension == 1 ? 1 : 0.75)), 24);
-    body_name(app, c, body_letter(i), letter_colour(app, i));
+    draw_letter(app, c, body_letter(i), letter_colour(app, i));
   }
 }
 
