@@ -163,6 +163,7 @@ void timeline_panel(App& app, const Area& area);
 void time_axis(App& app);  ///< of a moving scene, above the timeline
 void transport(App& app);
 void scrubber(App& app);
+void event_list(App& app, float width, float height);
 void bounds_plot(App& app, float width, float height);
 void motion_plot(App& app, float width, float height);
 void lab_panel(App& app, const Area& area);

@@ -1,6 +1,4 @@
-// Below the views: transport, scrubber, event list, bounds.
-#include <imgui_internal.h>
-
+// Below the views: transport, scrubber, and what stands under them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -316,60 +314,6 @@ void legend(App& app) {
   }
   ImGui::NewLine();
   ImGui::PopFont();
-}
-
-/// Before a row's number: a disc for a breakpoint, a bookmark's digit.
-void row_marks(const App& app, std::size_t step, ImVec2 at) {
-  const Theme& theme = app.theme;
-  ImDrawList* draw = ImGui::GetWindowDrawList();
-  const float middle = at.y + ImGui::GetTextLineHeight() / 2;
-  if (app.session.breakpoints.contains(step)) draw->AddCircleFilled({at.x + theme.px(4), middle}, theme.px(4), packed(theme.palette.newest), 16);
-  for (const auto& [digit, marked] : app.session.bookmarks)
-    if (marked == step) draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(10), middle - theme.small->FontSize / 2}, packed(theme.palette.accent), std::to_string(digit).c_str());
-}
-
-void event_list(App& app, float width, float height) {
-  Session& s = app.session;
-  const Theme& theme = app.theme;
-  ImGui::PushStyleColor(ImGuiCol_ChildBg, vec(theme.palette.panel));
-  ImGui::PushFont(theme.mono);
-  const float row = ImGui::GetTextLineHeightWithSpacing(), rows = std::max(1.f, std::floor(height / row));  // whole rows only
-  static std::size_t shown = 0;
-  static float shown_rows = 0;  // a window that has become smaller still shows the step
-  if (const bool resized = std::exchange(shown_rows, rows) != rows; shown != s.step() || resized)  // before the list begins, or it would follow a frame late
-    ImGui::SetNextWindowScroll({-1, std::max(0.f, std::round(static_cast<float>(s.step()) - rows / 2) * row)});
-  shown = s.step();
-  ImGui::SetNextWindowContentSize({0, static_cast<float>(s.count()) * row});  // of a scene just opened, too: how far it scrolls
-  ImGui::BeginChild("events", {width, rows * row}, false);
-  const float digit = ImGui::CalcTextSize("0").x, number_end = theme.px(20) + digit * static_cast<float>(std::to_string(s.count() - 1).size());
-  const float kind = number_end + theme.px(26), details = kind + theme.px(76);
-  ImGuiListClipper clipper;
-  clipper.Begin(static_cast<int>(s.count()), row);
-  while (clipper.Step())
-    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      const Event& event = s.recording().events[k];
-      ImGui::PushID(i);
-      const ImVec2 left = ImGui::GetCursorScreenPos();
-      const float end = ImGui::GetContentRegionAvail().x;
-      if (ImGui::Selectable("##row", s.step() == k)) s.playing = false, s.go_to(k);
-      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s: %s", short_kind(event), summary(s.recording(), k, app.settings.newest_first).c_str());  // a row may be cut off
-      row_marks(app, k, left);
-      const std::string number = std::to_string(i);
-      ImGui::SameLine(number_end - digit * static_cast<float>(number.size()));
-      ImGui::TextColored(vec(theme.palette.text_faint), "%s", number.c_str());
-      const ImVec2 at = ImGui::GetItemRectMax();
-      const float middle = at.y - ImGui::GetTextLineHeight() / 2, half = theme.px(4);
-      ImGui::GetWindowDrawList()->AddRectFilled({at.x + theme.px(8), middle - half}, {at.x + theme.px(16), middle + half}, packed(event_colour(theme.palette, event)), 2);
-      ImGui::SameLine(kind);
-      ImGui::TextUnformatted(short_kind(event));
-      ImGui::SameLine(details);
-      ImGui::TextColored(vec(theme.palette.text_soft), "%s", shortened(theme.mono, summary(s.recording(), k, app.settings.newest_first), end - details).c_str());
-      ImGui::PopID();
-    }
-  ImGui::EndChild();
-  ImGui::PopFont();
-  ImGui::PopStyleColor();
 }
 
 }  // namespace
