@@ -166,6 +166,12 @@ TEST(SmallestWindows, ShowTheirViews) {
     ASSERT_TRUE(step);
     EXPECT_GE(step->Size.y, 45) << "for the step's title";
     EXPECT_LE(step->Pos.y + step->Size.y, static_cast<float>(height));
+    host.press(Key::e);  // in big letters: both are still seen, the sentence as a whole
+    host.frame(), host.frame();
+    const ImGuiWindow *lecture = window_in_use("lecture"), *world = window_in_use("world");
+    ASSERT_TRUE(lecture && world);
+    EXPECT_GE(world->Size.y, 70) << width << " x " << height;
+    EXPECT_EQ(lecture->ScrollMax.y, 0) << width << " x " << height;
   }
 }
 

@@ -23,7 +23,7 @@ void App::panels(const Area& window) {
     return;
   }
   if (lecture) {
-    const float bottom = std::max(theme.px(190), window.height * 0.27f);
+    const float bottom = is_low(window) ? height * 0.52f : std::max(theme.px(190), window.height * 0.27f);
     theme.marks = 1.4f * lecture_scale(window.height);
     views_ = {gap, top + gap, window.width - 2 * gap, height - bottom - gap};
     view_panels(*this, views_, true);
