@@ -109,6 +109,18 @@ TEST_F(Student, ChoosesFromAllShapesAtOnce) {
   EXPECT_EQ(list->ScrollMax.y, 0);
 }
 
+/// The letter of the floor stood on a log that lay before it.
+TEST_F(Student, TellsTheFloorFromWhatLiesOnIt) {
+  app.open_gallery("sim-log-pile");
+  session.go_to(1);
+  const Projection projection(app.world_camera, {0, 0, 325, 440});
+  const std::vector<ViewPoint> places = letter_places(session.meshes(), session.recording(), session.frame(), projection);
+  ASSERT_EQ(places.size(), 4u);
+  const ViewPoint middle = to_view(session.frame().places[0].position);
+  EXPECT_GT((places[0] - middle).norm(), 0.5) << "the floor";
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(places[i], to_view(session.frame().places[i].position));
+}
+
 /// The picture has letters alone: what is called by a name has its letter beside it.
 TEST_F(Student, FindsTheNamedBodiesInThePicture) {
   const auto told = [&](const char* name) {

@@ -31,22 +31,7 @@ class WorldPainter : public Painter {
   }
 
  private:
-  /// A body's mesh where the frame has it: p goes to R R0^T (p - x0) + x.
-  DisplayMesh placed(int i) const {
-    const auto k = static_cast<std::size_t>(i);
-    const Body& body = recording_.scene.scene.bodies[k];
-    const Frame::Place& place = frame_.places[k];
-    const AnyMatrix turn = place.rotation * body.pose.matrix.transpose();
-    const auto move = [&](const ViewPoint& p) {
-      const AnyVector from = p.head(meshes_.dimension);
-      return to_view(AnyVector(turn * (from - body.pose.position) + place.position));
-    };
-    DisplayMesh mesh = meshes_.bodies[k];
-    for (ViewPoint& p : mesh.points) p = move(p);
-    if (meshes_.dimension == 3)
-      for (ViewPoint& n : mesh.normals) n = turn * n;
-    return mesh;
-  }
+  DisplayMesh placed(int i) const { return placed_mesh(meshes_, recording_, frame_, i); }
 
   /// Of a mesh the triangle whose run this is.
   void triangles() {
@@ -209,7 +194,9 @@ class WorldPainter : public Painter {
   /// Where the window draws the rings and letters that a body is held by: labels keep off them. Elsewhere the letters alone.
   void handles() {
     std::vector<ViewPoint> middles;
-    for (std::size_t i = 0; i < meshes_.bodies.size(); ++i) middles.push_back((moves() && frame_.step > 0 ? to_view(frame_.places[i].position) : middle(meshes_.bodies[i])) + one_d_offset(static_cast<int>(i)));
+    if (moves() && frame_.step > 0) middles = letter_places(meshes_, recording_, frame_, projection_);
+    else
+      for (std::size_t i = 0; i < meshes_.bodies.size(); ++i) middles.push_back(middle(meshes_.bodies[i]) + one_d_offset(static_cast<int>(i)));
     const std::vector<BodyHandle> handles = place_handles(middles, projection_, settings_.scale);
     for (std::size_t i = 0; i < middles.size(); ++i) {
       if (settings_.body_letters) {

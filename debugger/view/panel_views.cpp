@@ -153,11 +153,9 @@ void body_handles(App& app, const Projection& projection, Held& held) {
 
 /// Bodies that have moved on cannot be dragged, and keep their letters.
 void body_letters(App& app, const Projection& projection) {
-  const auto& places = app.session.frame().places;
   const int dimension = app.session.meshes().dimension;
-  std::vector<ViewPoint> middles;
-  for (std::size_t i = 0; i < places.size(); ++i) middles.push_back(to_view(places[i].position) + row_offset(static_cast<int>(i), dimension, projection));
-  const std::vector<BodyHandle> handles = place_handles(middles, projection, app.settings.scale);
+  const std::vector<ViewPoint> places = letter_places(app.session.meshes(), app.session.recording(), app.session.frame(), projection);
+  const std::vector<BodyHandle> handles = place_handles(places, projection, app.settings.scale);
   for (int i = 0; i < static_cast<int>(places.size()); ++i) {
     const ImVec2 c = at(projection(handles[static_cast<std::size_t>(i)].ring));
     // On a body, which has the letter's colour.
