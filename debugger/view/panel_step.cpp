@@ -48,8 +48,12 @@ void heading(App& app) {
   const Theme& theme = app.theme;
   const Explanation e = explain(session.recording(), session.frame(), app.settings.newest_first);
   ImGui::PushFont(theme.small);
-  const std::string time = session.frame().time ? "  \xC2\xB7  time " + short_number(*session.frame().time) : "";
-  wrapped(place_text(session) + time, theme.palette.text_faint);
+  std::string place = place_text(session);
+  if (session.frame().time) {
+    const std::string time = "time " + short_number(*session.frame().time), beside = place + "  \xC2\xB7  " + time;
+    place = ImGui::CalcTextSize(beside.c_str()).x <= ImGui::GetContentRegionAvail().x - theme.px(8) ? beside : place + "\n" + time;
+  }
+  wrapped(place, theme.palette.text_faint);
   if (const std::string triangle = triangle_name(session); !triangle.empty()) wrapped(triangle + ", a convex set of its own", theme.palette.text_faint);
   ImGui::PopFont();
   ImGui::PushFont(theme.title);
