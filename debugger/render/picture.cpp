@@ -171,14 +171,14 @@ std::vector<FlatItem> placed_labels(const Picture& picture, const Projection& pr
   return out;
 }
 
-/// The axes' numbers, but where one would lie under a label or a body's ring.
+/// The axes' numbers, but where one would lie under a label, a body's ring or what covers the view's top.
 std::vector<FlatItem> scale_marks(const Picture& picture, const Projection& project, double scale, const std::vector<LabelBox>& taken) {
   std::vector<FlatItem> out;
   for (const PictureLabel& mark : picture.scale_marks) {
     Projected at = project(mark.at);
     at.x += scale * mark.dx, at.y += scale * mark.dy;
     const LabelBox box{at.x, at.y, scale * text_width(mark.text, true), 11 * scale};
-    if (std::any_of(taken.begin(), taken.end(), [&](const LabelBox& other) { return box.meets(other); })) continue;
+    if (at.y < project.rectangle().y + picture.covered || std::any_of(taken.begin(), taken.end(), [&](const LabelBox& other) { return box.meets(other); })) continue;
     FlatItem item;
     item.kind = FlatItem::Kind::label;
     item.points = {at};

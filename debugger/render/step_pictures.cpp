@@ -1,7 +1,10 @@
 #include "debugger/render/step_pictures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace gjkdbg {
 
@@ -29,6 +32,74 @@ ViewPoint middle(const DisplayMesh& mesh) {
 ViewPoint row_offset(int body, int dimension, const Projection& projection) {
   if (dimension > 1) return ViewPoint::Zero();
   return {0, (body % 2 == 0 ? 0.3 : -0.3) * half_view(projection), 0};
+}
+
+/// p goes to R R0^T (p - x0) + x.
+DisplayMesh placed_mesh(const SceneMeshes& meshes, const Recording& recording, const Frame& frame, int body) {
+  const auto k = static_cast<std::size_t>(body);
+  const Pose& began = recording.scene.scene.bodies[k].pose;
+  const Frame::Place& place = frame.places[k];
+  const AnyMatrix turn = place.rotation * began.matrix.transpose();
+  DisplayMesh mesh = meshes.bodies[k];
+  for (ViewPoint& p : mesh.points) p = to_view(AnyVector(turn * (AnyVector(p.head(meshes.dimension)) - began.position) + place.position));
+  if (meshes.dimension == 3)
+    for (ViewPoint& n : mesh.normals) n = turn * n;
+  return mesh;
+}
+
+namespace {
+
+/// What is seen of a body in the picture: how far it reaches in directions all round.
+class Outline {
+ public:
+  Outline(const DisplayMesh& mesh, const Projection& projection) {
+    for (std::size_t i = 0; i < reach_.size(); ++i) {
+      reach_[i] = -std::numeric_limits<double>::infinity();
+      for (const ViewPoint& p : mesh.points) reach_[i] = std::max(reach_[i], along(i, projection(p)));
+    }
+  }
+  bool holds(const Projected& p) const {
+    for (std::size_t i = 0; i < reach_.size(); ++i)
+      if (along(i, p) > reach_[i]) return false;
+    return true;
+  }
+  /// The mean of its widths.
+  double size() const { return std::accumulate(reach_.begin(), reach_.end(), 0.0) / static_cast<double>(reach_.size() / 2); }
+
+ private:
+  double along(std::size_t i, const Projected& p) const {
+    const double angle = 2 * M_PI * static_cast<double>(i) / static_cast<double>(reach_.size());
+    return std::cos(angle) * p.x + std::sin(angle) * p.y;
+  }
+  std::array<double, 24> reach_{};
+};
+
+}  // namespace
+
+std::vector<ViewPoint> letter_places(const SceneMeshes& meshes, const Recording& recording, const Frame& frame, const Projection& projection) {
+  std::vector<ViewPoint> places;
+  std::vector<DisplayMesh> placed;
+  std::vector<Outline> outlines;
+  for (int i = 0; i < static_cast<int>(frame.places.size()); ++i) {
+    places.push_back(to_view(frame.places[static_cast<std::size_t>(i)].position) + row_offset(i, meshes.dimension, projection));
+    if (meshes.dimension < 3) continue;
+    placed.push_back(placed_mesh(meshes, recording, frame, i));
+    outlines.emplace_back(placed.back(), projection);
+  }
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    const auto hidden = [&](const ViewPoint& p) {  // behind or inside what is a good deal smaller
+      for (std::size_t k = 0; k < outlines.size(); ++k)
+        if (k != i && outlines[k].size() < 0.7 * outlines[i].size() && outlines[k].holds(projection(p))) return true;
+      return false;
+    };
+    if (!hidden(places[i])) continue;
+    for (const ViewPoint& corner : placed[i].points)
+      if (const ViewPoint p = places[i] + 0.6 * (corner - places[i]); !hidden(p) && projection.rectangle().contains(projection(p).x, projection(p).y)) {
+        places[i] = p;
+        break;
+      }
+  }
+  return places;
 }
 
 std::vector<BodyHandle> place_handles(const std::vector<ViewPoint>& middles, const Projection& projection, double scale) {

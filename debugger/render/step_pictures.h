@@ -42,6 +42,10 @@ SceneMeshes scene_meshes(const Scene& scene, const Settings& settings);
 std::string body_letter(int body);
 /// The middle of what is seen of a body: its pose's position may lie far from it.
 ViewPoint middle(const DisplayMesh& mesh);
+/// A body's mesh where the frame has it, of those that move.
+DisplayMesh placed_mesh(const SceneMeshes& meshes, const Recording& recording, const Frame& frame, int body);
+/// Where the letters of moving bodies stand: at their places; of a floor that something smaller hides there, on a part of it that is seen.
+std::vector<ViewPoint> letter_places(const SceneMeshes& meshes, const Recording& recording, const Frame& frame, const Projection& projection);
 /// A ring by which a body is moved and the small disc that turns it.
 struct BodyHandle {
   ViewPoint ring, disc;

@@ -31,22 +31,7 @@ class WorldPainter : public Painter {
   }
 
  private:
-  /// A body's mesh where the frame has it: p goes to R R0^T (p - x0) + x.
-  DisplayMesh placed(int i) const {
-    const auto k = static_cast<std::size_t>(i);
-    const Body& body = recording_.scene.scene.bodies[k];
-    const Frame::Place& place = frame_.places[k];
-    const AnyMatrix turn = place.rotation * body.pose.matrix.transpose();
-    const auto move = [&](const ViewPoint& p) {
-      const AnyVector from = p.head(meshes_.dimension);
-      return to_view(AnyVector(turn * (from - body.pose.position) + place.position));
-    };
-    DisplayMesh mesh = meshes_.bodies[k];
-    for (ViewPoint& p : mesh.points) p = move(p);
-    if (meshes_.dimension == 3)
-      for (ViewPoint& n : mesh.normals) n = turn * n;
-    return mesh;
-  }
+  DisplayMesh placed(int i) const { return placed_mesh(meshes_, recording_, frame_, i); }
 
   /// Of a mesh the triangle whose run this is.
   void triangles() {
@@ -188,7 +173,6 @@ class WorldPainter : public Painter {
     }
   }
 
-
   /// A point of each body, looking for the one nearest to the other; and where the next look begins.
   void projected() {
     if (frame_.predicted) {
@@ -210,7 +194,9 @@ class WorldPainter : public Painter {
   /// Where the window draws the rings and letters that a body is held by: labels keep off them. Elsewhere the letters alone.
   void handles() {
     std::vector<ViewPoint> middles;
-    for (std::size_t i = 0; i < meshes_.bodies.size(); ++i) middles.push_back((moves() && frame_.step > 0 ? to_view(frame_.places[i].position) : middle(meshes_.bodies[i])) + one_d_offset(static_cast<int>(i)));
+    if (moves() && frame_.step > 0) middles = letter_places(meshes_, recording_, frame_, projection_);
+    else
+      for (std::size_t i = 0; i < meshes_.bodies.size(); ++i) middles.push_back(middle(meshes_.bodies[i]) + one_d_offset(static_cast<int>(i)));
     const std::vector<BodyHandle> handles = place_handles(middles, projection_, settings_.scale);
     for (std::size_t i = 0; i < middles.size(); ++i) {
       if (settings_.body_letters) {
@@ -234,8 +220,9 @@ class WorldPainter : public Painter {
     picture_.points.push_back({a, palette_.body_a, 6, Mark::disc, -1});
     picture_.points.push_back({b, palette_.body_b, 6, Mark::disc, -1});
     const double beside = (a - b).dot(projection_.up()) >= 0 ? -12 : 12;  // the upper one's name above it, the lower one's below
-    label(a, "witness a", palette_.body_a, 9, beside);
-    label(b, "witness b", palette_.body_b, 9, -beside);
+    const std::string witness = projection_.rectangle().width < 280 * settings_.scale ? "" : "witness ";  // a small view has no room for the word beside the point
+    label(a, witness + "a", palette_.body_a, 9, beside);
+    label(b, witness + "b", palette_.body_b, 9, -beside);
     if (r.normal) {
       const ViewPoint tip = tip_in_view(a, arrow_along(*r.normal, normal_arrow));
       picture_.arrow(a, tip, palette_.frontier);

@@ -156,22 +156,22 @@ void App::picture_frame() {
   ImGui::End();
 }
 
-/// As the window is larger than 800 points high, so are the letters.
-float App::lecture_scale(float window_height) const { return std::clamp(window_height / theme.px(800), 1.f, 2.5f); }
+/// As the window is larger than 800 points high, so are the letters; and smaller as it is too low for all.
+float App::lecture_scale(float window_height) const { return std::clamp(window_height / theme.px(800), 1.f, 2.5f) * std::clamp(window_height / theme.px(400), 0.6f, 1.f); }
 
-/// On the title's line at the right, where there is room; half as large.
+/// On the title's line at the right, where there is room and it can be read; half as large.
 void App::lecture_place(const std::string& place) {
   const float line = ImGui::GetItemRectMax().y, title = ImGui::GetItemRectMax().x;
   const float size = theme.lecture->FontSize * lecture_scale(ImGui::GetIO().DisplaySize.y) / 3.2f, width = theme.lecture->CalcTextSizeA(size, 1e6f, 0, place.c_str()).x;
   const float left = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x - width;
-  if (left < title + theme.px(16)) return;
+  if (left < title + theme.px(16) || size < theme.px(9)) return;
   ImGui::GetWindowDrawList()->AddText(theme.lecture, size, {left, line - size * 1.25f}, packed(theme.palette.text_faint), place.c_str());
 }
 
-/// For a hall: the step in letters that the last row can read, and the scrubber.
+/// For a hall: the step in letters that the last row can read, and the scrubber where that leaves room for them.
 void App::lecture_panel(const Area& area) {
-  if (begin_area("lecture", area)) {
-    scrubber(*this);
+  if (begin_panel(theme, "lecture", area, true)) {
+    if (area.height > theme.px(170)) scrubber(*this);
     const Explanation e = explain(session.recording(), session.frame(), settings.newest_first);
     ImGui::Dummy({0, theme.px(4)});
     ImGui::SetWindowFontScale(lecture_scale(ImGui::GetIO().DisplaySize.y) / 2);

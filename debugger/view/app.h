@@ -98,7 +98,9 @@ class App {
   void lecture_place(const std::string& place);
   float lecture_scale(float window_height) const;
   void panels(const Area& window);
-  void small_panels(const Area& window);
+  bool is_low(const Area& window) const;
+  float scrubber_height() const;
+  void small_panels(const Area& window, float top);
   void splitter(const char* name, const Area& area, bool vertical, float& value, float low, float high, float sign);
   void banner(const Area& area);
   void key_sheet();
@@ -161,12 +163,17 @@ void timeline_panel(App& app, const Area& area);
 void time_axis(App& app);  ///< of a moving scene, above the timeline
 void transport(App& app);
 void scrubber(App& app);
+void event_list(App& app, float width, float height);
 void bounds_plot(App& app, float width, float height);
 void motion_plot(App& app, float width, float height);
 void lab_panel(App& app, const Area& area);
 void way_back(App& app);
 /// What a name in a picture stands for, with its numbers; empty where it says so itself.
 std::string meaning_of(const std::string& label, bool world, const Frame& frame, const Recording& recording);
+/// What a heading or a row of the step's panel means; empty where it says so itself.
+std::string glossary(std::string_view name);
+/// A tooltip that says so, when what was drawn last is pointed at.
+void tell_meaning(const Theme& theme, const char* name);
 /// The two views, side by side or stacked, or the one chosen.
 void view_panels(App& app, const Area& area, bool interactive);
 
@@ -174,6 +181,8 @@ void view_panels(App& app, const Area& area, bool interactive);
 
 /// A borderless child window over an area; call ImGui::EndChild after it.
 bool begin_area(const char* name, const Area& area, bool scrolls = false);
+/// The same, with less of a margin where it is low.
+bool begin_panel(const Theme& theme, const char* name, const Area& area, bool scrolls = false);
 /// What is left of a panel, scrolled for itself. Like begin_area, to be ended by ImGui::EndChild.
 bool begin_list(const char* name);
 void section(const Theme& theme, const char* title);

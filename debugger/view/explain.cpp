@@ -184,7 +184,7 @@ struct Explain : ExplainMethods {
     const bool more = frame.step + 1 < recording.events.size();
     const bool grows = more && std::holds_alternative<recorded::PolytopeGrown>(recording.events[frame.step + 1]);
     if (!chosen || e.direction.isZero(0)) return "If it lies farther out than the " + facet() + ", the polytope grows to it; if not, the " + facet() + " is the boundary.";
-    return "It reaches " + short_number(e.direction.stableNormalized().dot(e.w)) + ", the " + facet() + " " + short_number(chosen->distance) + ": " +
+    return "It reaches " + short_number(e.direction.stableNormalized().dot(e.w)) + " from the origin, the " + facet() + (grows ? " only " : " ") + short_number(chosen->distance) + ": " +
            (grows ? "the " + facet() + " is not the boundary, and the polytope grows to it." : "as far as it need be known, nothing lies beyond the " + facet() + ".");
   }
 

@@ -141,7 +141,7 @@ void App::key_sheet() {
   static const KeyGroup left[] = {
       {"STEPS", {{"Right  Left   or   .  ,", "on, back an event"}, {"Shift with them", "an iteration"}, {"Ctrl with them", "a phase"}, {"Home  End", "first, last step"}, {"Space", "play, pause"}, {"[  ]", "loop from here, to here"},
                  {"B", "breakpoint here"}, {"M, 1 to 9", "bookmark, go to it"}, {"Ctrl-F, F3, Shift-F3", "find, next, the one before"}, {"Ctrl-G", "go to a step"}}},
-      {"MOUSE", {{"drag, right drag, wheel", "orbit, pan, zoom"}, {"click a vertex", "select it in both views"}, {"click a number", "the step it comes from"}, {"drag a ring A or B", "move the body"}, {"drag its small disc", "turn the body"}}}};
+      {"MOUSE", {{"drag, right drag, wheel", "orbit, pan, zoom"}, {"point at a name", "what it stands for"}, {"click a vertex", "select it in both views"}, {"click a number", "the step it comes from"}, {"drag a ring A or B", "move the body"}, {"drag its small disc", "turn the body"}}}};
   static const KeyGroup right[] = {
       {"SCENES AND FILES", {{"G", "gallery or scene"}, {"Page Down  Page Up", "next scene, the one before"}, {"Ctrl-O  Ctrl-S", "open, save"}, {"Ctrl-C, Ctrl-Shift-C", "copy the scene: JSON, C++"}, {"Ctrl-Z  Ctrl-Y", "undo, redo"}, {"Ctrl-Q", "quit"}}},
       {"VIEWS", {{"F, double click", "fit the views"}, {"Shift-F", "the views as at first"}, {"1 2 3 on the pad", "front, right, top"}, {"V", "side by side, stacked, one"}, {"L", "link the cameras"}, {"T", "dark or light"}, {"E", "explain in big letters"}, {"X", "charts and atlas"},

@@ -5,9 +5,15 @@
 
 namespace gjkdbg {
 
+/// Too low for all: the views go before the buttons, which have keys, and the list of steps.
+bool App::is_low(const Area& window) const { return window.height < theme.px(400); }
+
+/// Of a panel that has room for no more; above it the time of what moves.
+float App::scrubber_height() const { return theme.px(session.scene().scene.motion ? 78 : 58); }
+
 void App::panels(const Area& window) {
   rail_open_ = false;  // unless the rail is drawn, and open
-  const float gap = theme.px(6), top = theme.px(48);
+  const float gap = theme.px(6), top = theme.px(is_low(window) ? 40 : 48);
   top_bar({0, 0, window.width, top});
   if (!session.is_open()) return;
   const float height = window.height - top - 2 * gap;
@@ -17,7 +23,7 @@ void App::panels(const Area& window) {
     return;
   }
   if (lecture) {
-    const float bottom = std::max(theme.px(190), window.height * 0.27f);
+    const float bottom = is_low(window) ? height * 0.52f : std::max(theme.px(190), window.height * 0.27f);
     theme.marks = 1.4f * lecture_scale(window.height);
     views_ = {gap, top + gap, window.width - 2 * gap, height - bottom - gap};
     view_panels(*this, views_, true);
@@ -26,14 +32,15 @@ void App::panels(const Area& window) {
     banner({gap, top + gap, window.width - 2 * gap, theme.px(40)});
     return;
   }
-  if (window.width < theme.px(600)) return small_panels(window);
+  if (window.width < theme.px(600)) return small_panels(window, top);
   const bool narrow = window.width < theme.px(1180);
   wide_ = !narrow;
   Preferences& p = preferences;
   const float rail = theme.px(44);
   const float left = narrow ? rail : std::min(theme.px(p.left), window.width * 0.35f), right = std::min(theme.px(p.right), narrow ? std::max(window.width * 0.29f, theme.px(232)) : window.width * 0.4f);
   const float lines = window.height / theme.px(900), tall = lines > 1 ? std::min(lines, 1.6f) : std::clamp(window.height / theme.px(650), 0.8f, 1.f);  // a tall window has more steps in its list, a low one fewer
-  const float bottom = std::min(theme.px(p.bottom) * tall, window.height * 0.6f);
+  const bool low = is_low(window);
+  const float bottom = low ? scrubber_height() : std::min(theme.px(p.bottom) * tall, window.height * 0.6f);
   const Area middle{left + 2 * gap, top + gap, window.width - left - right - 4 * gap, height - bottom - gap};
   if (narrow) icon_rail({gap, top + gap, left, height});
   else left_panel({gap, top + gap, left, height}), rail_opens_.reset();
@@ -43,24 +50,24 @@ void App::panels(const Area& window) {
   step_panel(*this, {window.width - right - gap, top + gap, right, height});
   if (!narrow) splitter("##left", {left + gap, top + gap, gap, height}, true, p.left, 200, 460, 1);
   splitter("##right", {window.width - right - 2 * gap, top + gap, gap, height}, true, p.right, 240, 560, -1);
-  splitter("##bottom", {middle.x, middle.y + middle.height, middle.width, gap}, false, p.bottom, 130, 520, -1 / tall);
+  if (!low) splitter("##bottom", {middle.x, middle.y + middle.height, middle.width, gap}, false, p.bottom, 130, 520, -1 / tall);
   banner({middle.x + gap, middle.y + gap, middle.width - 2 * gap, theme.px(40)});
 }
 
 /// One below the other: side by side neither the views nor the step's words have room.
-void App::small_panels(const Area& window) {
+void App::small_panels(const Area& window, float top) {
   wide_ = false;
-  const float gap = theme.px(6), top = theme.px(48), rail = theme.px(44), height = window.height - top - 2 * gap;
+  const bool low = is_low(window);
+  const float gap = theme.px(low ? 4 : 6), rail = theme.px(44), height = window.height - top - 2 * gap;
   const Area middle{rail + 2 * gap, top + gap, window.width - rail - 3 * gap, height};
-  const float axis = session.scene().scene.motion ? theme.px(20) : 0;
   // The buttons only where they leave room for the rest: each has its key. The list of steps only in a high window.
-  const float strip = height < theme.px(280) ? theme.px(70) + axis : theme.px(height < theme.px(620) ? 118 : 250) + axis;
-  const float rest = height - strip - 2 * gap, above = rest / 2;
+  const float strip = scrubber_height() + (low ? 0 : theme.px(height < theme.px(620) ? 60 : 192));
+  const float rest = height - strip - 2 * gap, step = low ? std::max(theme.px(48), rest * 0.3f) : rest / 2, above = rest - step;
   icon_rail({gap, top + gap, rail, height});
   views_ = {middle.x, middle.y, middle.width, above};
   view_panels(*this, views_, true);
   timeline_panel(*this, {middle.x, middle.y + above + gap, middle.width, strip});
-  step_panel(*this, {middle.x, middle.y + above + strip + 2 * gap, middle.width, rest - above});
+  step_panel(*this, {middle.x, middle.y + above + strip + 2 * gap, middle.width, step});
   banner({middle.x + gap, middle.y + gap, middle.width - 2 * gap, theme.px(40)});
 }
 

@@ -37,15 +37,16 @@ std::string in_difference(const std::string& name, const Frame& frame) {
 std::string in_world(const std::string& name, const Frame& frame, const Recording& recording) {
   const std::string a = body_letter(frame.pair[0]), b = body_letter(frame.pair[1]);
   const bool projected = std::holds_alternative<recorded::PointsProjected>(recording.events[frame.step]);
+  const bool answered = frame.step + 1 == recording.events.size() && recording.result.witness_a;  // the supports have no names any more then
+  if (name == "witness a" || name == "witness b" || (answered && (name == "a" || name == "b"))) {
+    const bool overlap = recording.result.signed_distance && *recording.result.signed_distance < 0;
+    return overlap ? "The witnesses of the overlap: moved by the depth along n, " + b + " just touches " + a + ", and the two are one point." : "The witnesses of the distance: points of " + a + " and " + b + " nearest to each other.";
+  }
   const auto support = [&](const std::string& other) { return " With " + other + " it makes the support, w = a " + minus + " b."; };
   if (name == "a") return projected ? "a, the point of " + a + " that is nearest to b." : "a, the point of " + a + " farthest along d." + support("b");
   if (name == "b") return projected ? "b, the point of " + b + " that is nearest to a." : "b, the point of " + b + " farthest along " + minus + "d." + support("a");
   if (name == "d") return "d, the direction asked along.";
   if (name == "-d") return "Against d: the farther b lies that way, the farther a " + minus + " b lies along d.";
-  if (name == "witness a" || name == "witness b") {
-    const bool overlap = recording.result.signed_distance && *recording.result.signed_distance < 0;
-    return overlap ? "Moved by the depth along n, " + b + " just touches " + a + ", and the two witnesses are one point." : "The witnesses of the distance: points of " + a + " and " + b + " nearest to each other.";
-  }
   if (name == "n") return "n, the unit normal, from " + a + " towards " + b + ".";
   if (name == "x") return "x, where the next look begins.";
   if (!name.empty() && name.find_first_not_of("0123456789") == std::string::npos) return "Contact point " + name + ". The panel says where it is.";

@@ -170,7 +170,7 @@ bool choose_type(Shape& shape, int dimension, double size, float room) {
   const std::string now = type_name(shape, dimension);
   bool edited = false;
   ImGui::SetNextItemWidth(room);
-  if (!ImGui::BeginCombo("##type", now.c_str())) return false;
+  if (!ImGui::BeginCombo("##type", now.c_str(), ImGuiComboFlags_HeightLarge)) return false;
   for (const std::string& type : types[dimension - 1])
     if (ImGui::Selectable(type.c_str(), type == now) && type != now) shape = shape_of_type(type, dimension, size), edited = true;
   ImGui::EndCombo();

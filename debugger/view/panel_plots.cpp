@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "debugger/view/app.h"
 #include "debugger/view/explain.h"
@@ -242,12 +243,19 @@ std::vector<TimedValue> timed_values(const Recording& recording) {
   return values;
 }
 
+/// When a cast ends: with the hit, or with the interval.
+double end_of_cast(const Recording& recording) {
+  const auto* ended = std::get_if<recorded::CastEnded>(&recording.events.back());
+  return ended && ended->time > 0 ? ended->time : 1;
+}
+
 /// Distances or energies over time: their range, and what is drawn in it.
 class TimePlot {
  public:
-  TimePlot(const Theme& theme, ImVec2 at, ImVec2 size, const std::vector<TimedValue>& values, bool cast)
+  /// `cast`: of one, when it ends.
+  TimePlot(const Theme& theme, ImVec2 at, ImVec2 size, const std::vector<TimedValue>& values, std::optional<double> cast)
       : theme_(theme), at_(at), from_{at.x + theme.px(64), at.y + theme.px(28)}, to_{at.x + size.x - theme.px(cast ? 14 : 58), at.y + size.y - theme.px(22)},
-        low_(cast ? 0 : values[0].value), high_(values[0].value), first_(cast ? 0 : values[0].time), last_(cast ? 1 : values[0].time) {
+        low_(cast ? 0 : values[0].value), high_(values[0].value), first_(cast ? 0 : values[0].time), last_(cast.value_or(values[0].time)) {
     for (const TimedValue& x : values) low_ = std::min(low_, x.value), high_ = std::max(high_, x.value), last_ = std::max(last_, x.time);
     if (const double middle = (low_ + high_) / 2; !(high_ - low_ > 1e-6 * std::abs(middle))) {  // what stays is a line, not its rounding drawn large
       const double beside = std::max(1e-12, std::abs(middle) * 1e-3);
@@ -363,7 +371,7 @@ void motion_plot(App& app, float width, float height) {
   const std::vector<TimedValue> values = timed_values(s.recording());
   if (values.empty())
     return soft_note(theme, at, s.recording().result.intersecting && cast ? "They overlap at the beginning:\nthere is nothing to advance to." : "Nothing has moved.");
-  const TimePlot plot(theme, at, {width, height}, values, cast);
+  const TimePlot plot(theme, at, {width, height}, values, cast ? std::optional(end_of_cast(s.recording())) : std::nullopt);
   plot.axes();
   plot.curves(values, cast ? series_of(s.frame().pair) : 0, cast);
   if (!cast) plot.momentum(s.recording().events);

@@ -48,8 +48,12 @@ void heading(App& app) {
   const Theme& theme = app.theme;
   const Explanation e = explain(session.recording(), session.frame(), app.settings.newest_first);
   ImGui::PushFont(theme.small);
-  const std::string time = session.frame().time ? "  \xC2\xB7  time " + short_number(*session.frame().time) : "";
-  ImGui::TextColored(vec(theme.palette.text_faint), "%s", shortened(theme.small, place_text(session) + time, ImGui::GetContentRegionAvail().x).c_str());
+  std::string place = place_text(session);
+  if (session.frame().time) {
+    const std::string time = "time " + short_number(*session.frame().time), beside = place + "  \xC2\xB7  " + time;
+    place = ImGui::CalcTextSize(beside.c_str()).x <= ImGui::GetContentRegionAvail().x - theme.px(8) ? beside : place + "\n" + time;
+  }
+  wrapped(place, theme.palette.text_faint);
   if (const std::string triangle = triangle_name(session); !triangle.empty()) wrapped(triangle + ", a convex set of its own", theme.palette.text_faint);
   ImGui::PopFont();
   ImGui::PushFont(theme.title);
@@ -191,6 +195,7 @@ void algorithm(App& app) {
   const float room = ImGui::GetContentRegionAvail().x - theme.px(12);
   if (widest > room) ImGui::SetWindowFontScale(std::max(0.66f, room / widest));
   ImDrawList* draw = ImGui::GetWindowDrawList();
+  ImGui::BeginGroup();
   for (std::size_t i = 0; i < code.lines.size(); ++i) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const bool current = static_cast<int>(i) == code.current;
@@ -202,8 +207,10 @@ void algorithm(App& app) {
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + theme.px(12));
     ImGui::TextColored(vec(current ? theme.palette.text : theme.palette.text_soft), "%s", code.lines[i].c_str());
   }
+  ImGui::EndGroup();
   ImGui::SetWindowFontScale(1);
   ImGui::PopFont();
+  tell_meaning(theme, code.title.c_str());
 }
 
 /// The selected vertex, or the newest: where it is and where it came from.
@@ -281,7 +288,7 @@ std::string place_text(Session& session) {
 }
 
 void step_panel(App& app, const Area& area) {
-  if (!begin_area("step", area, true)) return ImGui::EndChild();
+  if (!begin_panel(app.theme, "step", area, true)) return ImGui::EndChild();
   way_back(app);
   heading(app);
   scene_note(app);

@@ -1,4 +1,4 @@
-// Below the views: transport, scrubber, event list, bounds.
+// Below the views: transport, scrubber, and what stands under them.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -316,59 +316,10 @@ void legend(App& app) {
   ImGui::PopFont();
 }
 
-/// Before a row's number: a disc for a breakpoint, a bookmark's digit.
-void row_marks(const App& app, std::size_t step, ImVec2 at) {
-  const Theme& theme = app.theme;
-  ImDrawList* draw = ImGui::GetWindowDrawList();
-  const float middle = at.y + ImGui::GetTextLineHeight() / 2;
-  if (app.session.breakpoints.contains(step)) draw->AddCircleFilled({at.x + theme.px(4), middle}, theme.px(4), packed(theme.palette.newest), 16);
-  for (const auto& [digit, marked] : app.session.bookmarks)
-    if (marked == step) draw->AddText(theme.small, theme.small->FontSize, {at.x + theme.px(10), middle - theme.small->FontSize / 2}, packed(theme.palette.accent), std::to_string(digit).c_str());
-}
-
-void event_list(App& app, float width, float height) {
-  Session& s = app.session;
-  const Theme& theme = app.theme;
-  ImGui::PushStyleColor(ImGuiCol_ChildBg, vec(theme.palette.panel));
-  ImGui::PushFont(theme.mono);
-  const float row = ImGui::GetTextLineHeightWithSpacing(), rows = std::max(1.f, std::floor(height / row));  // whole rows only
-  ImGui::BeginChild("events", {width, rows * row}, false);
-  static std::size_t shown = 0;
-  static float shown_rows = 0;  // a window that has become smaller still shows the step
-  if (shown != s.step() || std::exchange(shown_rows, rows) != rows) ImGui::SetScrollY(std::max(0.f, std::round(static_cast<float>(s.step()) - rows / 2) * row));
-  shown = s.step();
-  ImGuiListClipper clipper;
-  clipper.Begin(static_cast<int>(s.count()), row);
-  while (clipper.Step())
-    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      const Event& event = s.recording().events[k];
-      ImGui::PushID(i);
-      const ImVec2 left = ImGui::GetCursorScreenPos();
-      const float end = ImGui::GetContentRegionAvail().x;
-      if (ImGui::Selectable("##row", s.step() == k)) s.playing = false, s.go_to(k);
-      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s: %s", short_kind(event), summary(s.recording(), k, app.settings.newest_first).c_str());  // a row may be cut off
-      row_marks(app, k, left);
-      ImGui::SameLine(theme.px(18));
-      ImGui::TextColored(vec(theme.palette.text_faint), "%5d", i);
-      const ImVec2 at = ImGui::GetItemRectMax();
-      const float middle = at.y - ImGui::GetTextLineHeight() / 2, half = theme.px(4);
-      ImGui::GetWindowDrawList()->AddRectFilled({at.x + theme.px(8), middle - half}, {at.x + theme.px(16), middle + half}, packed(event_colour(theme.palette, event)), 2);
-      ImGui::SameLine(theme.px(88));
-      ImGui::TextUnformatted(short_kind(event));
-      ImGui::SameLine(theme.px(164));
-      ImGui::TextColored(vec(theme.palette.text_soft), "%s", shortened(theme.mono, summary(s.recording(), k, app.settings.newest_first), end - theme.px(164)).c_str());
-      ImGui::PopID();
-    }
-  ImGui::EndChild();
-  ImGui::PopFont();
-  ImGui::PopStyleColor();
-}
-
 }  // namespace
 
 void timeline_panel(App& app, const Area& area) {
-  if (!begin_area("timeline", area)) return ImGui::EndChild();
+  if (!begin_panel(app.theme, "timeline", area)) return ImGui::EndChild();
   if (area.height > app.theme.px(100)) transport(app), ImGui::Dummy({0, app.theme.px(4)});
   const bool moves = app.session.scene().scene.motion.has_value();
   if (moves) time_axis(app);

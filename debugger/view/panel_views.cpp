@@ -76,8 +76,7 @@ std::vector<BodyHandle> handles_of(const App& app, const Projection& projection)
   return place_handles(middles, projection, app.settings.scale);
 }
 
-/// Around its middle.
-void body_name(const App& app, ImVec2 middle, const std::string& letter, Colour colour) {
+void draw_letter(const App& app, ImVec2 middle, const std::string& letter, Colour colour) {
   const float size = app.theme.small->FontSize * app.theme.marks;
   const ImVec2 half = app.theme.small->CalcTextSizeA(size, 1e6f, 0, letter.c_str());
   ImGui::GetWindowDrawList()->AddText(app.theme.small, size, {middle.x - half.x / 2, middle.y - half.y / 2}, packed(colour), letter.c_str());
@@ -100,61 +99,68 @@ void turn(Body& body, const AnyVector& pivot, const ViewPoint& axis, double angl
   body.pose.position = stays - body.pose.matrix * pivot;
 }
 
-/// A ring in each body's middle, or beside another's that is there: dragging it moves the body in the picture's plane; the disc beside it turns it.
-void body_handles(App& app, const Projection& projection, ImDrawList* draw, Held& held) {
-  const ImVec2 mouse = ImGui::GetIO().MousePos;
+/// The ring of a body with its letter, and the disc beside it. Pressed, it begins an edit.
+void body_handle(App& app, int i, const BodyHandle& handle, const Projection& projection, Held& held) {
+  const ImVec2 mouse = ImGui::GetIO().MousePos, ring = at(projection(handle.ring)), disc = at(projection(handle.disc));
   const int dimension = app.session.scene().scene.dimension;
-  const std::vector<BodyHandle> handles = handles_of(app, projection);
   const float radius = static_cast<float>(handle_radius * app.settings.scale);
-  for (int i = 0; i < static_cast<int>(handles.size()); ++i) {
-    const ImVec2 ring = at(projection(handles[static_cast<std::size_t>(i)].ring)), disc = at(projection(handles[static_cast<std::size_t>(i)].disc));
-    const Colour colour = letter_colour(app, i);
-    const std::string letter = body_letter(i);
-    const bool near = ImGui::IsItemHovered() && distance(mouse, ring) < radius + app.theme.px(3);
-    const bool near_disc = ImGui::IsItemHovered() && dimension > 1 && !near && distance(mouse, disc) < app.theme.px(7);
-    draw->AddCircleFilled(ring, radius, packed(app.theme.palette.view.with_alpha(dimension == 1 ? 1 : 0.75)), 24);  // the letter lies on a body of its own colour
-    draw->AddCircle(ring, radius, packed(colour.with_alpha(near || (held.body == i && !held.turning) ? 1 : 0.7)), 24, app.theme.px(2));
-    if (dimension > 1) draw->AddCircleFilled(disc, app.theme.px(3.5f), packed(colour.with_alpha(near_disc || (held.body == i && held.turning) ? 1 : 0.6)), 16);
-    body_name(app, ring, letter, colour);
-    if (near && held.body < 0) ImGui::SetTooltip("drag: move %s", letter.c_str());
-    if (near_disc && held.body < 0) ImGui::SetTooltip("drag: turn %s", letter.c_str());
-    if ((near || near_disc) && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-      const auto k = static_cast<std::size_t>(i);
-      held = {i, near_disc, pivot_of(app.session.meshes().bodies[k], app.session.scene().scene.bodies[k].pose)}, app.session.begin_edit();
-    }
-  }
-  if (held.body < 0) return;
-  const ImVec2 delta = ImGui::GetIO().MouseDelta;
+  const Colour colour = letter_colour(app, i);
+  const std::string letter = body_letter(i);
+  const bool near = ImGui::IsItemHovered() && distance(mouse, ring) < radius + app.theme.px(3);
+  const bool near_disc = ImGui::IsItemHovered() && dimension > 1 && !near && distance(mouse, disc) < app.theme.px(7);
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddCircleFilled(ring, radius, packed(app.theme.palette.view.with_alpha(dimension == 1 ? 1 : 0.75)), 24);  // the letter lies on a body of its own colour
+  draw->AddCircle(ring, radius, packed(colour.with_alpha(near || (held.body == i && !held.turning) ? 1 : 0.7)), 24, app.theme.px(2));
+  if (dimension > 1) draw->AddCircleFilled(disc, app.theme.px(3.5f), packed(colour.with_alpha(near_disc || (held.body == i && held.turning) ? 1 : 0.6)), 16);
+  draw_letter(app, ring, letter, colour);
+  if (near && held.body < 0) ImGui::SetTooltip("drag: move %s", letter.c_str());
+  if (near_disc && held.body < 0) ImGui::SetTooltip("drag: turn %s", letter.c_str());
+  if (!(near || near_disc) || !ImGui::IsMouseClicked(ImGuiMouseButton_Left)) return;
+  const auto k = static_cast<std::size_t>(i);
+  held = {i, near_disc, pivot_of(app.session.meshes().bodies[k], app.session.scene().scene.bodies[k].pose)};
+  app.session.begin_edit();
+}
+
+/// The body that is held follows the mouse until it is let go.
+void drag_held(App& app, const Projection& projection, Held& held) {
+  const ImVec2 mouse = ImGui::GetIO().MousePos, delta = ImGui::GetIO().MouseDelta;
   if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
     held = {};
     app.session.end_edit();
-  } else if (delta.x != 0 || delta.y != 0) {
-    SceneFile next = app.session.scene();
-    next.expect.reset();
-    Body& body = next.scene.bodies[static_cast<std::size_t>(held.body)];
-    if (held.turning) {
-      const ImVec2 c = at(projection(to_view(place_of(held.pivot, body.pose))));
-      const double from = std::atan2(c.y - (mouse.y - delta.y), (mouse.x - delta.x) - c.x), to = std::atan2(c.y - mouse.y, mouse.x - c.x);
-      turn(body, held.pivot, projection.towards(), std::remainder(to - from, 2 * M_PI), dimension);
-    } else {
-      body.pose.position += projection.move(delta.x, delta.y).head(dimension);
-    }
-    app.edit(next);
+    return;
   }
+  if (delta.x == 0 && delta.y == 0) return;
+  SceneFile next = app.session.scene();
+  next.expect.reset();
+  Body& body = next.scene.bodies[static_cast<std::size_t>(held.body)];
+  const int dimension = next.scene.dimension;
+  if (held.turning) {
+    const ImVec2 c = at(projection(to_view(place_of(held.pivot, body.pose))));
+    const double from = std::atan2(c.y - (mouse.y - delta.y), (mouse.x - delta.x) - c.x), to = std::atan2(c.y - mouse.y, mouse.x - c.x);
+    turn(body, held.pivot, projection.towards(), std::remainder(to - from, 2 * M_PI), dimension);
+  } else {
+    body.pose.position += projection.move(delta.x, delta.y).head(dimension);
+  }
+  app.edit(next);
+}
+
+/// A ring in each body's middle, or beside another's that is there: dragging it moves the body in the picture's plane; the disc beside it turns it.
+void body_handles(App& app, const Projection& projection, Held& held) {
+  const std::vector<BodyHandle> handles = handles_of(app, projection);
+  for (std::size_t i = 0; i < handles.size(); ++i) body_handle(app, static_cast<int>(i), handles[i], projection, held);
+  if (held.body >= 0) drag_held(app, projection, held);
 }
 
 /// Bodies that have moved on cannot be dragged, and keep their letters.
 void body_letters(App& app, const Projection& projection) {
-  const auto& places = app.session.frame().places;
   const int dimension = app.session.meshes().dimension;
-  std::vector<ViewPoint> middles;
-  for (std::size_t i = 0; i < places.size(); ++i) middles.push_back(to_view(places[i].position) + row_offset(static_cast<int>(i), dimension, projection));
-  const std::vector<BodyHandle> handles = place_handles(middles, projection, app.settings.scale);
+  const std::vector<ViewPoint> places = letter_places(app.session.meshes(), app.session.recording(), app.session.frame(), projection);
+  const std::vector<BodyHandle> handles = place_handles(places, projection, app.settings.scale);
   for (int i = 0; i < static_cast<int>(places.size()); ++i) {
     const ImVec2 c = at(projection(handles[static_cast<std::size_t>(i)].ring));
     // On a body, which has the letter's colour.
     ImGui::GetWindowDrawList()->AddCircleFilled(c, app.theme.px(dimension == 1 ? 8.f : 7.f) * app.theme.marks, packed(app.theme.palette.view.with_alpha(dimension == 1 ? 1 : 0.75)), 24);
-    body_name(app, c, body_letter(i), letter_colour(app, i));
+    draw_letter(app, c, body_letter(i), letter_colour(app, i));
   }
 }
 
@@ -208,7 +214,7 @@ void interact(App& app, const Area& area, const Shown& shown, Camera& camera, co
   ImGui::SetCursorScreenPos({area.x, area.y});
   ImGui::InvisibleButton("canvas", {area.width, area.height}, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   const bool movable = shown.world && !shown.other && (app.session.frame().places.empty() || app.session.step() == 0);
-  if (movable) body_handles(app, projection, ImGui::GetWindowDrawList(), held);
+  if (movable) body_handles(app, projection, held);
   else if (shown.world && !shown.other) body_letters(app, projection);
   if (!(movable && held.body >= 0)) steer(camera, projection), link_cameras(app, shown.world);
   if (!ImGui::IsItemHovered()) return;
@@ -227,6 +233,38 @@ void interact(App& app, const Area& area, const Shown& shown, Camera& camera, co
   if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) app.fit_views();
 }
 
+/// What a view's title takes of it, in pixels: the lower the view, the less.
+struct TitleSpace {
+  bool subtitle;      ///< in a low view the title is alone
+  float font;         ///< of the title, times its own size
+  ImVec2 corner;      ///< where it begins
+  float solid, faded; ///< so far down nothing is drawn below it, and from there on all
+  float left_free;    ///< above the picture, whose middle is lower by half of it
+  double covered;     ///< of the picture: labels keep off that
+};
+
+/// `large`: times the size, in a hall.
+TitleSpace title_space(const Theme& theme, float height, float large) {
+  if (height < theme.px(105)) return {false, 0.85f, {theme.px(8), theme.px(2)}, 0, 0, 0, theme.px(16)};  // no room at all: it lies on the picture
+  const bool low = height < theme.px(140);
+  const float solid = theme.px(low ? 22 : 38) * large, faded = theme.px(low ? 34 : 56) * large, left_free = theme.px(low ? 18 : 28.8f) * large;
+  return {!low, large, {theme.px(14), theme.px(low ? 4 : 10)}, solid, faded, left_free, (solid + faded) / 2 - left_free};
+}
+
+/// The title and what fades out below it.
+void draw_title(App& app, const Area& area, const Shown& shown, const TitleSpace& space) {
+  const Theme& theme = app.theme;
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  const ImU32 cover = packed(theme.palette.view), clear = packed(theme.palette.view.with_alpha(0));
+  const float right = area.x + area.width, faint_from = area.y + space.solid;
+  draw->AddRectFilled({area.x, area.y}, {right, faint_from}, packed(theme.palette.view.with_alpha(1)));
+  draw->AddRectFilledMultiColor({area.x, faint_from}, {right, area.y + space.faded}, cover, cover, clear, clear);
+  const ImVec2 title{area.x + space.corner.x, area.y + space.corner.y};
+  const float room = (right - theme.px(8) - title.x) / space.font;
+  draw->AddText(theme.text, theme.text->FontSize * space.font, title, packed(shown.other ? theme.palette.text_soft : theme.palette.text), title_of(app, shown, room).c_str());
+  if (space.subtitle) draw->AddText(theme.small, theme.small->FontSize * space.font, {title.x, title.y + theme.px(20) * space.font}, packed(theme.palette.text_faint), shortened(theme.small, subtitle_of(app, shown), room).c_str());
+}
+
 void one_view(App& app, const Area& area, const Shown& shown, bool interactive, std::optional<int>& pointed) {
   const Theme& theme = app.theme;
   Session& s = app.session;
@@ -234,28 +272,17 @@ void one_view(App& app, const Area& area, const Shown& shown, bool interactive, 
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   begin_area(shown.other ? "other" : shown.world ? "world" : "difference", area);
   ImGui::PopStyleVar();  // tooltips have their padding
-  ImDrawList* draw = ImGui::GetWindowDrawList();
   Camera& camera = shown.world ? app.world_camera : app.difference_camera;
-  const float large = std::max(1.f, theme.marks / 1.4f);  // in a hall, as large as the sentence
-  const bool low = area.height < theme.px(140);  // the title alone
-  const double header = theme.px(low ? 30 : 48) * large;
-  const Projection projection(camera, {area.x, area.y + header * 0.6, area.width, area.height - header * 0.6});
+  const TitleSpace space = title_space(theme, area.height, std::max(1.f, theme.marks / 1.4f));  // in a hall, as large as the sentence
+  const Projection projection(camera, {area.x, area.y + space.left_free, area.width, area.height - space.left_free});
   app.settings.scale = theme.px(theme.marks);
   const auto make = shown.world ? world_picture : difference_picture;
   const Recording& recording = shown.other ? s.other() : s.recording();
-  const float solid = theme.px(low ? 22 : 38) * large, faded = theme.px(low ? 34 : 56) * large;
   Picture picture = make(shown.other ? s.other_meshes() : s.meshes(), recording, shown.other ? s.other_frame() : s.frame(), app.settings, theme.palette, projection);
-  picture.covered = (solid + faded) / 2 - header * 0.6;
+  picture.covered = space.covered;
   const auto items = flatten(picture, projection, theme.px(theme.marks));
-  draw_items(draw, items, theme);
-  // What is drawn fades out below the title.
-  const ImU32 cover = packed(theme.palette.view), clear = packed(theme.palette.view.with_alpha(0));
-  draw->AddRectFilled({area.x, area.y}, {area.x + area.width, area.y + solid}, packed(theme.palette.view.with_alpha(1)));
-  draw->AddRectFilledMultiColor({area.x, area.y + solid}, {area.x + area.width, area.y + faded}, cover, cover, clear, clear);
-  const ImVec2 title{area.x + theme.px(14), area.y + theme.px(low ? 4 : 10)};
-  const float room = area.x + area.width - theme.px(8) - title.x;
-  draw->AddText(theme.text, theme.text->FontSize * large, title, packed(shown.other ? theme.palette.text_soft : theme.palette.text), title_of(app, shown, room / large).c_str());
-  if (!low) draw->AddText(theme.small, theme.small->FontSize * large, {title.x, title.y + theme.px(20) * large}, packed(theme.palette.text_faint), shortened(theme.small, subtitle_of(app, shown), room / large).c_str());
+  draw_items(ImGui::GetWindowDrawList(), items, theme);
+  draw_title(app, area, shown, space);
   if (interactive) interact(app, area, shown, camera, projection, items, pointed);
   ImGui::EndChild();
   ImGui::PopStyleColor();

@@ -1,6 +1,7 @@
 #include "debugger/view/explain.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace gjkdbg {
 namespace {
@@ -18,25 +19,36 @@ struct PseudoCodeOf {
   bool ray() const { return settings.name == MethodName::ray_cast; }
 
   PseudoCode cast(int line) const {
-    if (ray()) return {"Ray cast", {"x = 0;  v = x - support(r)", "while |v| > tolerance", "  p = support(v)", "  if x beyond the plane at p:", "    if v.r >= 0: miss", "    x = where the ray meets it", "  v = x - point of P nearest x", "hit at x"}, line};
+    if (ray()) return {"Ray cast", {"x = 0;  v = x - support(r)", "while |v| > tolerance", "  p = support(v)", "  if x beyond the plane at p:", "    if v.r >= 0: miss", "    x = where the ray meets it", "    if x past the ray's end: miss", "  v = x - point of P nearest x", "hit at x"}, line};
     const bool roots = settings.name == MethodName::root_finding;
     return {roots ? "Root finding" : "Conservative advancement",
-            {"t = 0", "repeat", "  d, n = GJK(A at t, B at t)", "  if d within tolerance: hit", "  bound = closing speed along n", "  if bound <= 0: miss", roots ? "  t = where it closes along n, or n turning" : "  t = t + d / bound"},
+            {"t = 0", "repeat", "  d, n = GJK(A at t, B at t)", "  if d within tolerance: hit", "  bound = closing speed along n", "  if bound <= 0: miss", roots ? "  t = where it closes along n, or n turning" : "  t = t + d / bound", "  if t past the end: miss"},
             line};
   }
   PseudoCode operator()(const recorded::CastBegan&) const { return cast(0); }
   PseudoCode operator()(const recorded::CastAdvanced& e) const {
     return cast(ray() ? 5 : meets_at(recording, step) ? 3 : e.bound <= 0 ? 5 : 6);
   }
-  /// Else the interval has ended before the next step.
-  bool last_recedes() const {
-    for (std::size_t i = step; i-- > 0;)
-      if (const auto* advanced = std::get_if<recorded::CastAdvanced>(&recording.events[i])) return advanced->bound <= 0;
-    return true;
+  /// Of a cast without a hit: whether a pair that still comes nearer has to wait until the interval is over. Else every pair recedes. After a
+  /// response that is seen without a run: the pair moves away from what it has hit.
+  bool time_runs_out() const {
+    std::optional<int> iteration;
+    for (std::size_t i = step; i-- > 0 && !std::holds_alternative<recorded::State>(recording.events[i]);) {
+      const auto* advanced = std::get_if<recorded::CastAdvanced>(&recording.events[i]);
+      if (!advanced) continue;
+      if (advanced->bound > 0) return true;
+      if (iteration.value_or(advanced->iteration) != advanced->iteration) return false;
+      iteration = advanced->iteration;
+    }
+    return false;
   }
+  /// A ray that leads away ends with a support; one that is clipped beyond its end is clipped first.
+  bool ray_runs_out() const { return step > 0 && std::holds_alternative<recorded::CastAdvanced>(recording.events[step - 1]); }
+
   PseudoCode operator()(const recorded::CastEnded& e) const {
     if (e.status == CastStatus::iteration_limit) return cast(no_line);
-    return cast(e.status == CastStatus::miss ? (ray() ? 4 : last_recedes() ? 5 : 6) : ray() ? 7 : 3);
+    if (e.status != CastStatus::miss) return cast(ray() ? 8 : 3);
+    return cast(ray() ? (ray_runs_out() ? 6 : 4) : time_runs_out() ? 7 : 5);
   }
 
   PseudoCode moving(int of_response, int of_simulation) const {

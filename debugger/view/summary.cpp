@@ -60,7 +60,8 @@ bool meets_at(const Recording& recording, std::size_t step) {
 std::string body_name(const Recording& recording, int body) {
   const auto& bodies = recording.scene.scene.bodies;
   const std::string& name = bodies[std::min(static_cast<std::size_t>(body), bodies.size() - 1)].name;
-  return name.empty() ? "body " + std::to_string(body) : name;
+  const std::string letter = body_letter(body);
+  return name.empty() ? "body " + letter : name == letter ? name : name + " (" + letter + ")";
 }
 
 std::string facet_name(const Recording& recording) { return gjkdbg::facet_name(recording.scene.scene.dimension); }

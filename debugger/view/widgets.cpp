@@ -16,13 +16,32 @@ bool begin_area(const char* name, const Area& area, bool scrolls) {
                            ImGuiWindowFlags_AlwaysUseWindowPadding | (scrolls ? 0 : ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse));
 }
 
+bool begin_panel(const Theme& theme, const char* name, const Area& area, bool scrolls) {
+  const bool low = area.height < theme.px(100);
+  if (low) ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {theme.px(10), theme.px(7)});
+  const bool seen = begin_area(name, area, scrolls);
+  if (low) ImGui::PopStyleVar();  // tooltips have theirs
+  return seen;
+}
+
 bool begin_list(const char* name) { return ImGui::BeginChild(name, {0, 0}, false); }
+
+/// Left of the panel, where there is room, so that it covers nothing of it.
+void tell_meaning(const Theme& theme, const char* name) {
+  if (!ImGui::IsItemHovered()) return;
+  const std::string meaning = glossary(name);
+  if (meaning.empty()) return;
+  const ImVec2 panel = ImGui::GetWindowPos();
+  if (panel.x > theme.px(420)) ImGui::SetNextWindowPos({panel.x - theme.px(6), ImGui::GetItemRectMin().y}, ImGuiCond_Always, {1, 0});
+  tooltip(theme, meaning);
+}
 
 void section(const Theme& theme, const char* title) {
   ImGui::Dummy({0, theme.px(4)});
   ImGui::PushFont(theme.small);
   wrapped(title, theme.palette.text_faint);
   ImGui::PopFont();
+  tell_meaning(theme, title);
 }
 
 std::string shortened(const ImFont* font, const std::string& text, float room) {
@@ -100,6 +119,7 @@ void wrapped(const std::string& text, Colour colour) { wrapped(text, colour, ImG
 void number_row(const Theme& theme, const char* label, const std::string& value, Colour colour) {
   const float left = ImGui::GetCursorPosX(), label_end = left + ImGui::CalcTextSize(label).x + theme.px(6);
   ImGui::TextColored(vec(theme.palette.text_soft), "%s", label);
+  tell_meaning(theme, label);
   ImGui::PushFont(theme.mono);
   const float right = ImGui::GetWindowContentRegionMax().x, at = right - ImGui::CalcTextSize(value.c_str()).x;
   if (at > label_end) {
