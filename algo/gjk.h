@@ -163,9 +163,11 @@ class Gjk {
   /// Takes the newest point and cuts the simplex down to the feature nearest the origin; false when that is no nearer than before (NaN included).
   [[gnu::always_inline]] bool reduce() {
     if constexpr (grows<SubAlgorithm>) {
-      bool told = true;
-      const bool nearer = SubAlgorithm::Grown::find(result_.simplex.points, places_, newest_, newest_w_, steps_.lanes,
-                                                    [&](const auto& nearest) __attribute__((always_inline)) { return nearest.places != 0 ? accept(nearest) : told = false; });
+      bool told;
+      const bool nearer = SubAlgorithm::Grown::find(result_.simplex.points, places_, newest_, newest_w_, steps_.lanes, [&](const auto& nearest) __attribute__((always_inline)) {
+        told = nearest.places != 0;
+        return told && accept(nearest);
+      });
       if (told) [[likely]] return nearer;
     }
     places_ |= 1u << newest_;
