@@ -163,7 +163,7 @@ class Gjk {
   /// Takes the newest point and cuts the simplex down to the feature nearest the origin; false when that is no nearer than before (NaN included).
   [[gnu::always_inline]] bool reduce() {
     if constexpr (grows<SubAlgorithm>) {
-      bool told;
+      bool told = false;
       const bool nearer = SubAlgorithm::Grown::find(result_.simplex.points, places_, newest_, newest_w_, steps_.lanes, [&](const auto& nearest) __attribute__((always_inline)) {
         told = nearest.places != 0;
         return told && accept(nearest);
