@@ -46,10 +46,10 @@ GJKDBG_LANES __m256d greatest_of_lanes(__m256d x) {
   const int lane = 3 - 2 * (positive_i & 1) - (positive_j & 1);  // both the triangle, one its edge; of none, lane 3, nothing is told
   const int ends = _mm256_movemask_pd(_mm256_cmp_pd(towards, length, _CMP_LT_OQ)) & ((positive_i & 0b0010) | (positive_j & 0b0100));
   const int holds = ends | _mm_comilt_sd(_mm_add_sd(_mm256_castpd256_pd128(of_i), _mm256_castpd256_pd128(of_j)), _mm256_castpd256_pd128(length));
-  // Of i, j and the third edge, the longer of the first two and the shorter of all but that one.
+  // Thin is told by the longer of the edges to i and j, and by the longer of the others.
   const __m128d upper = _mm256_extractf128_pd(length, 1), lower = _mm256_castpd256_pd128(length), to_i = _mm_unpackhi_pd(lower, lower), third = _mm_unpackhi_pd(upper, upper);
-  const __m128d longer = _mm_max_sd(to_i, upper), shorter = _mm_min_sd(_mm_min_sd(to_i, upper), third);
-  const bool plain = _mm_comigt_sd(lower, _mm_mul_sd(_mm_mul_sd(_mm_set_sd(1e-6), longer), shorter)) != 0;
+  const __m128d longer = _mm_max_sd(to_i, upper), next_longer = _mm_max_sd(_mm_min_sd(to_i, upper), third);
+  const bool plain = _mm_comigt_sd(lower, _mm_mul_sd(_mm_mul_sd(_mm_set_sd(1e-6), longer), next_longer)) != 0;
   return plain && (holds >> lane & 1) != 0 ? lane : -1;
 }
 
@@ -69,8 +69,8 @@ GJKDBG_LANES __m256d greatest_of_lanes(__m256d x) {
   const __m256d holds = _mm256_and_pd(_mm256_and_pd(_mm256_cmp_pd(first, zero, _CMP_GT_OQ), _mm256_cmp_pd(second, zero, _CMP_GT_OQ)), _mm256_cmp_pd(_mm256_add_pd(first, second), area, _CMP_LT_OQ));
   const FourVectors third = next - e;
   const __m256d of_e = e.dot(e), of_next = next.dot(next), of_third = third.dot(third);
-  const __m256d longer = _mm256_max_pd(of_e, of_next), shorter = _mm256_min_pd(_mm256_min_pd(of_e, of_next), of_third);
-  const __m256d plain = _mm256_cmp_pd(area, _mm256_mul_pd(_mm256_mul_pd(_mm256_set1_pd(1e-6), longer), shorter), _CMP_GT_OQ);
+  const __m256d longer = _mm256_max_pd(of_e, of_next), next_longer = _mm256_max_pd(_mm256_min_pd(of_e, of_next), of_third);
+  const __m256d plain = _mm256_cmp_pd(area, _mm256_mul_pd(_mm256_mul_pd(_mm256_set1_pd(1e-6), longer), next_longer), _CMP_GT_OQ);
   if (_mm256_movemask_pd(_mm256_and_pd(told, plain)) != 0b1111) [[unlikely]] return -1;
   const int negative = _mm256_movemask_pd(beyond), faces = (negative ^ ((negative >> 3) - 1)) & _mm256_movemask_pd(holds) & 0b0111;  // beyond a face as the solid lies
   return faces != 0 ? std::countr_zero(static_cast<unsigned>(faces)) : -1;
