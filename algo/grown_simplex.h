@@ -229,7 +229,7 @@ class GrownSimplex {
     };
     if (by_ij && ends_with(across(i, j, ij))) return best;
     if (by_jk && ends_with(across(j, k, jk))) return best;
-    if (by_ki) ends_with(across(k, i, ki));
+    if (by_ki && ends_with(across(k, i, ki))) return best;
     return known ? best : Nearest{};
   }
   [[gnu::noinline]] static Nearest around_flat(const Edge& i, const Edge& j, const Edge& k) {
