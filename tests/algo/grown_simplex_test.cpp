@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "algo/gjk.h"
 #include "algo/minkowski_difference.h"
 #include "algo/signed_volumes.h"
 
@@ -201,6 +202,47 @@ TEST(VerticesPair, SaysWhatOneBodyAfterTheOtherSays) {
     }
   }
   EXPECT_EQ(compared, 600 * 200);
+}
+
+/// Asks the other difference, too, what GJK asks.
+struct AskedTwice {
+  MinkowskiDifference<3, double, AnyBody>& other;
+  int asked = 0;
+
+  template <class Event>
+  void operator()([[maybe_unused]] const Event& event) {
+    if constexpr (Event::kind == std::string_view("support_queried")) {
+      const auto expected = other.support(event.direction);
+      EXPECT_EQ(event.a, expected.a);
+      EXPECT_EQ(event.b, expected.b);
+      EXPECT_EQ(event.w, expected.w);
+      ++asked;
+    }
+  }
+};
+
+/// Where the nearest points lie on edges and faces, every vertex of these is as high as the others along the last directions; they are the ones met before.
+TEST(VerticesPair, SaysTheSameToGjk) {
+  RandomNumbers random(11);
+  int asked = 0;
+  for (int k = 0; k < 400; ++k) {
+    const auto body = [&](int n) { return Convex<3, double>(Shape{random_hull_of(n), 0}); };
+    const Convex<3, double> a = body(9 + k % 24), b = body(9 + k * 7 % 24);
+    Pose pose_a = identity_pose(3), pose_b = identity_pose(3);
+    pose_b.position = AnyVector(Eigen::Vector3d(random.vector()).normalized() * (2 + random.uniform(0, 0.5)));
+    pose_b.matrix = AnyMatrix(Eigen::AngleAxisd(random.uniform(0, 3), Eigen::Vector3d(random.vector()).normalized()).toRotationMatrix());
+    MinkowskiDifference<3, double, Convex<3, double>> together(a, b, pose_a, pose_b, 1);
+    const AnyBody any_a{a}, any_b{b};
+    MinkowskiDifference<3, double, AnyBody> one_by_one(any_a, any_b, pose_a, pose_b, 1);
+    GjkOptions<3, double> options;
+    options.direction = together.towards_b();
+    AskedTwice twice{one_by_one};
+    GjkResult<3, double> found;
+    gjk<SignedVolumes<3, double>>(together, options, twice, found);
+    ASSERT_FALSE(HasFailure()) << "pair " << k;
+    asked += twice.asked;
+  }
+  EXPECT_GT(asked, 1600);
 }
 
 /// The same of two tables of directions: of round hulls, flat ones, far-off ones, and prisms, of which a cell has more vertices than it has room for.
