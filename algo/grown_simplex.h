@@ -74,14 +74,14 @@ class GrownSimplex {
   /// The same without lanes, of two old vertices at least.
   [[gnu::noinline]] static Nearest one_by_one(const Points& points, unsigned old, int newest) { return of_features(points, Old(old), newest, T::of(points[newest].w)); }
 
-  /// What was told is not the feature of the weights that will be wanted.
+  /// What was told in lanes is not the feature whose weights will be wanted.
   [[gnu::always_inline]] static void forget([[maybe_unused]] ToldInLanes<S>& lanes) {
 #ifdef GJKDBG_AVX2
     if constexpr (sizeof(S) == 8) lanes.lane = -1;
 #endif
   }
 
-  /// The weights of such a feature, by place: v = sum weight_i w_i. Those of no vertex of it stay.
+  /// The weights of such a feature, by place: v = sum weight_i w_i. Those of other places mean nothing.
   [[gnu::always_inline]] static void weigh(const Points& points, unsigned places, int newest, const ToldInLanes<S>& lanes, std::array<S, 4>& weights) {
 #ifdef GJKDBG_AVX2
     if constexpr (sizeof(S) == 8)
