@@ -20,10 +20,8 @@ GJKDBG_LANES Lanes minus(const Lanes& a, const Lanes& b) { return _mm256_sub_pd(
 GJKDBG_LANES Lanes times(const Lanes& a, const Lanes& b) { return _mm256_mul_pd(a, b); }
 GJKDBG_LANES Lanes over(const Lanes& a, const Lanes& b) { return _mm256_div_pd(a, b); }
 GJKDBG_LANES Lanes sign_of(const Lanes& a) { return _mm256_and_pd(a, all(-0.0)); }
-GJKDBG_LANES Lanes length_of(const Lanes& a) { return _mm256_andnot_pd(all(-0.0), a); }
 /// Times 1 and -1: `sign`'s sign alone is set.
 GJKDBG_LANES Lanes with(const Lanes& a, const Lanes& sign) { return _mm256_xor_pd(a, sign); }
-GJKDBG_LANES Lanes negative(const Lanes& a) { return with(a, all(-0.0)); }
 GJKDBG_LANES Lanes clamped(const Lanes& x, const Lanes& half) { return _mm256_min_pd(half, _mm256_max_pd(negative(half), x)); }
 /// a x + b y + c z.
 GJKDBG_LANES Lanes sum(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& x, const Lanes& y, const Lanes& z) { return plus(plus(times(a, x), times(b, y)), times(c, z)); }

@@ -65,12 +65,6 @@ class GrownSimplex {
 #endif
     return take(of_features(points, places, newest, a));
   }
-  /// The nearest itself.
-  static Nearest closest(const Points& points, unsigned old, int newest, const T a, ToldInLanes<S>& lanes) {
-    Nearest nearest;
-    find(points, old, newest, a, lanes, [&](const Nearest& found) { return nearest = found, true; });
-    return nearest;
-  }
   /// The same without lanes, of two old vertices at least.
   [[gnu::noinline]] static Nearest one_by_one(const Points& points, unsigned old, int newest) { return of_features(points, Old(old), newest, T::of(points[newest].w)); }
 
@@ -172,11 +166,10 @@ class GrownSimplex {
     return told(i.e.cross(i.c) * (1 / i.length), i.from() | i.to());
   }
 
-  /// 1e-6: the square of the sine of the angle below which n is worth less than 1e-13 in double.
   [[gnu::always_inline]] static bool thin(const Edge& i, const Edge& j, const T& n) {
     const T third = j.e - i.e;
     const S longer = i.length < j.length ? j.length : i.length, shorter = i.length < j.length ? i.length : j.length, across = third.dot(third);
-    return !(n.dot(n) > S(1e-6) * longer * (shorter < across ? across : shorter));
+    return !(n.dot(n) > thin_squared<S> * longer * (shorter < across ? across : shorter));
   }
 
   [[gnu::always_inline]] static Nearest across(const Edge& i, const Edge& j, const T& n) {

@@ -13,11 +13,15 @@
 
 namespace gjkdbg {
 
+/// Of determinant_error, times m^3.
+template <class S>
+inline constexpr S determinant_rounding = 24 * std::numeric_limits<S>::epsilon();
+
 /// Error of a 3x3 determinant with entries of at most m: its six products of three are each off by at most 3 u m^3
 /// (u: half an ulp of 1), their sum by 5 more roundings of at most 6 m^3: below 48 u m^3.
 template <class S>
 S determinant_error(S m) {
-  return 24 * std::numeric_limits<S>::epsilon() * m * m * m;
+  return determinant_rounding<S> * m * m * m;
 }
 
 template <class S>

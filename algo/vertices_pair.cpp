@@ -56,7 +56,7 @@ struct Found {
   if (a_ == nullptr) return support_of_tables(pose, x, y, z, point);
   point.w[0] = x, point.w[1] = y, point.w[2] = z;  // for `settled`: where they are handed over, they are no longer where they are needed first
   const float size = static_cast<float>(std::abs(x) + std::abs(y) + std::abs(z)) * 1.75F + std::numeric_limits<float>::min();
-  const Lanes towards_a = _mm256_xor_pd(_mm256_set1_pd(-0.0), turned(pose.inverse, _mm256_set1_pd(x), _mm256_set1_pd(y), _mm256_set1_pd(z)));
+  const Lanes towards_a = negative(turned(pose.inverse, _mm256_set1_pd(x), _mm256_set1_pd(y), _mm256_set1_pd(z)));
   const __m128 single = _mm256_cvtpd_ps(towards_a);
   const __m256 twice = _mm256_set_m128(single, single);
   const VertexEights::Highest a = a_->highest(_mm256_set1_ps(static_cast<float>(x)), _mm256_set1_ps(static_cast<float>(y)), _mm256_set1_ps(static_cast<float>(z)), size);
@@ -70,7 +70,7 @@ template <bool by_a, bool by_b>
 void VerticesPair::settled(const RelativePose<3, double>& pose, SupportPoint<3, double>& point, unsigned a, unsigned b) {
   const double x = point.w[0], y = point.w[1], z = point.w[2];
   if constexpr (by_b) {
-    const Lanes d = _mm256_xor_pd(_mm256_set1_pd(-0.0), turned(pose.inverse, _mm256_set1_pd(x), _mm256_set1_pd(y), _mm256_set1_pd(z)));
+    const Lanes d = negative(turned(pose.inverse, _mm256_set1_pd(x), _mm256_set1_pd(y), _mm256_set1_pd(z)));
     b = highest_of(*b_, b, last_b_, d[0], d[1], d[2]);
   }
   if constexpr (by_a) a = highest_of(*a_, a, last_a_, x, y, z);
@@ -78,7 +78,7 @@ void VerticesPair::settled(const RelativePose<3, double>& pose, SupportPoint<3, 
 }
 
 [[gnu::target("avx2")]] void VerticesPair::support_of_tables(const RelativePose<3, double>& pose, double x, double y, double z, SupportPoint<3, double>& point) const {
-  const Found b(*table_b_, _mm256_xor_pd(_mm256_set1_pd(-0.0), turned(pose.inverse, _mm256_set1_pd(x), _mm256_set1_pd(y), _mm256_set1_pd(z))));
+  const Found b(*table_b_, negative(turned(pose.inverse, _mm256_set1_pd(x), _mm256_set1_pd(y), _mm256_set1_pd(z))));
   const Found a(*table_a_, _mm256_set_pd(0, z, y, x));
   write(point, pose, _mm256_set_pd(0, a.x[2 * a.stride], a.x[a.stride], a.x[0]), b.x, b.stride);
 }

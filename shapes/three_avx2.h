@@ -17,6 +17,9 @@ GJKDBG_LANES void store_three(double* v, const Lanes& three) {
   _mm_storeu_pd(v, _mm256_castpd256_pd128(three));
   _mm_store_sd(v + 2, _mm256_extractf128_pd(three, 1));
 }
+GJKDBG_LANES Lanes negative(const Lanes& v) { return _mm256_xor_pd(v, _mm256_set1_pd(-0.0)); }
+/// Each without its sign.
+GJKDBG_LANES Lanes length_of(const Lanes& v) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), v); }
 /// One of them in all lanes.
 template <int i>
 GJKDBG_LANES Lanes lane(const Lanes& v) { return _mm256_permute4x64_pd(v, i * 0b01010101); }

@@ -48,7 +48,12 @@ struct Grown {
     newest = (first + size) % 4;
     put(newest, out * (distance - std::pow(10.0, random.uniform(-5, 0.3))) + along * random.uniform(-1, 1) + across * (width * random.uniform(-1, 1)));
   }
-  Triple<double> newest_w() const { return Triple<double>::of(points[static_cast<std::size_t>(newest)].w); }
+  GrownSimplex<double>::Nearest nearest(ToldInLanes<double>& lanes) const {
+    GrownSimplex<double>::Nearest nearest;
+    const auto newest_w = Triple<double>::of(points[static_cast<std::size_t>(newest)].w);
+    GrownSimplex<double>::find(points, old, newest, newest_w, lanes, [&](const auto& found) { return nearest = found, true; });
+    return nearest;
+  }
   void put(int place, const Eigen::Vector3d& w) { points[static_cast<std::size_t>(place)] = {w, w, Eigen::Vector3d::Zero(), place}; }
 };
 
@@ -61,7 +66,7 @@ TEST(GrownSimplex, TellsThePointNearestTheOrigin) {
     const double width = k % 2 == 0 ? 1 : std::pow(10.0, random.uniform(-9, 0));
     const Grown grown(random, size, width);
     ToldInLanes<double> lanes;
-    const auto found = GrownSimplex<double>::closest(grown.points, grown.old, grown.newest, grown.newest_w(), lanes);
+    const auto found = grown.nearest(lanes);
     ++asked;
     if (found.places == 0) continue;
     ++told;
@@ -106,7 +111,7 @@ TEST(GrownSimplex, TellsNothingOfWhatIsNoNumber) {
     Grown grown(random, 1 + k % 3, 1);
     grown.points[static_cast<std::size_t>(grown.newest)].w[k % 3] = std::numeric_limits<double>::quiet_NaN();
     ToldInLanes<double> lanes;
-    const auto found = GrownSimplex<double>::closest(grown.points, grown.old, grown.newest, grown.newest_w(), lanes);
+    const auto found = grown.nearest(lanes);
     EXPECT_FALSE(found.places != 0 && found.v_squared < std::numeric_limits<double>::infinity()) << k;
   }
 }
@@ -120,7 +125,7 @@ TEST(GrownSimplex, TellsTheSameInLanes) {
   for (int k = 0; k < 40000; ++k) {
     const Grown grown(random, 2 + k % 2, k % 4 < 2 ? 1 : std::pow(10.0, random.uniform(-9, 0)));
     ToldInLanes<double> lanes;
-    const auto found = GrownSimplex<double>::closest(grown.points, grown.old, grown.newest, grown.newest_w(), lanes);
+    const auto found = grown.nearest(lanes);
     ++asked;
     if (lanes.lane < 0) continue;
     ++told, edges += count_of(found.places) == 2;
