@@ -102,7 +102,7 @@ struct Answer {
     set(result.normal, n);
     set(result.witness_a, minus(middle, times(n, all((distance / 2 - radius_a) * unit))));
     set(result.witness_b, plus(middle, times(n, all((distance / 2 - radius_b) * unit))));
-    result.status = word_of(status);
+    result.status = status;
     result.iterations = axes + corner, result.support_calls = axes;
     return true;
   }

@@ -53,7 +53,7 @@ struct BoxQuery {
     NearestPoints<D, S> cores = found;
     cores.lower_bound -= floor;
     SatAnswer<D, S>{WorkingFrame<D, S>(pose_a, Vector<D, double>::Zero(), scale), radius_a, radius_b, floor}.set(result, cores);
-    result.status = word_of(found.apart ? SatStatus::separated : SatStatus::overlapping);
+    result.status = found.apart ? SatStatus::separated : SatStatus::overlapping;
     result.iterations = found.axes + found.corner, result.support_calls = found.axes;
     return true;
   }

@@ -351,7 +351,7 @@ class Caster : MovingBodies {
 
   Result result() const {
     Result r;
-    r.status = word_of(first_.status);
+    r.status = first_.status;
     r.intersecting = first_.status == CastStatus::hit || first_.status == CastStatus::initially_overlapping;
     r.iterations = iterations_, r.support_calls = supports_;
     r.time = first_.time, r.touching_at = touching_at_;

@@ -200,7 +200,7 @@ class ClosedForm {
   Result finish(ClosedFormStatus status, const Nearest& n, const V& normal, S core_distance, S lower, S upper, Query query) {
     const double radius = radius_a_ + radius_b_;
     Result r;
-    r.status = word_of(status);
+    r.status = status;
     r.iterations = 1;
     r.intersecting = static_cast<double>(core_distance) <= radius;
     const double low = static_cast<double>(lower) - radius, high = static_cast<double>(upper) - radius;

@@ -2,6 +2,7 @@
 // numbers PairSolver comes to.
 #pragma once
 
+#include "algo/polygon_eights.h"
 #include "algo/polygon_sat.h"
 #include "algo/sat_answer.h"
 
@@ -28,7 +29,11 @@ class PolygonQuery {
   /// Keeps pointers to the cores, which are made for `scale`.
   PolygonQuery(const Convex<2, S>& a, const Convex<2, S>& b, double scale)
       : polygon_of_a_(a), polygon_of_b_(b), a_(*polygon_of_a_.polygon), b_(*polygon_of_b_.polygon), reference_a_(a.reference()), reference_b_(b.reference()),
-        extents_(static_cast<S>(a.extent() + b.extent())), radius_a_(a.radius()), radius_b_(b.radius()), scale_(scale) {}
+        extents_(static_cast<S>(a.extent() + b.extent())), radius_a_(a.radius()), radius_b_(b.radius()), scale_(scale) {
+#ifdef GJKDBG_AVX2
+    if constexpr (sizeof(S) == 8) eights_ = {a_, b_};
+#endif
+  }
 
   /// False: GJK has the last word, and `result` means nothing.
   bool solve(const PlacedAxes<2>& pose_a, const PlacedAxes<2>& pose_b, Result& result) const {
@@ -47,9 +52,18 @@ class PolygonQuery {
     S floor;  ///< of rounding
   };
   Placed placed(const PlacedAxes<2>& pose_a, const PlacedAxes<2>& pose_b) const {
-    const RelativePose<2, S> pose = relative_pose<2, S>(pose_a, reference_a_, pose_b, reference_b_, scale_);
-    return {pose, rounding_floor_of(extents_, pose.position[0] * pose.position[0] + pose.position[1] * pose.position[1])};
+    Placed placed{relative_pose<2, S>(pose_a, reference_a_, pose_b, reference_b_, scale_), 0};  // not copied: what was just written is still on its way
+    const Vector<2, S>& p = placed.pose.position;
+    placed.floor = rounding_floor_of(extents_, p[0] * p[0] + p[1] * p[1]);
+    return placed;
   }
+#ifdef GJKDBG_AVX2
+  const PolygonEights& eights() const { return eights_; }
+  /// Where there are eights.
+  [[gnu::target("avx2"), gnu::always_inline]] inline PolygonEights::Widest widest_by_eights(const Placed& placed) const {
+    return eights_.widest(placed.pose, placed.floor * 0x1p49);  // the floor is 10 2^-52 m
+  }
+#endif
   SatAnswer<2, S> answer(const PlacedAxes<2>& pose_a, S floor) const { return {WorkingFrame<2, S>(pose_a, reference_a_, scale_), radius_a_, radius_b_, floor}; }
 
  private:
@@ -65,7 +79,7 @@ class PolygonQuery {
       if (!sat.witnesses()) return false;
       answer(pose_a, floor).set(result, {sat.witnesses()->a, sat.witnesses()->b, found.normal, -found.depth, -found.depth - floor});
     }
-    result.status = word_of(found.status);
+    result.status = found.status;
     result.iterations = found.iterations, result.support_calls = difference.heights;
     return true;
   }
@@ -90,6 +104,9 @@ class PolygonQuery {
   const S extents_;                                    ///< added
   const double radius_a_, radius_b_;
   const double scale_;
+#ifdef GJKDBG_AVX2
+  PolygonEights eights_;  ///< in double precision
+#endif
 };
 
 }  // namespace gjkdbg

@@ -316,7 +316,7 @@ class Simulation {
 
   Result result() const {
     Result r;
-    r.status = limited_ ? "contact_unknown" : "completed";
+    r.status = limited_ ? StatusWord("contact_unknown") : StatusWord("completed");
     r.intersecting = !contacts_.empty();
     r.iterations = iterations_, r.support_calls = supports_;
     r.time = time_;

@@ -70,7 +70,7 @@ class PairSolver {
     }
     run_gjk(difference_, settings_.closest_point, options, trace_, gjk_);
     if (warm_) keep_simplex();
-    result_->status = word_of(gjk_.status);
+    result_->status = gjk_.status;
     result_->iterations += gjk_.iterations;
     if (query == Query::intersect) {
       if (undecided(gjk_, difference_.radius()) && mpr_decides(query)) return;
@@ -106,14 +106,14 @@ class PairSolver {
       const Vector<D, double> local = frame_.rotation.transpose() * (world / world.cwiseAbs().maxCoeff());
       return local.template cast<S>();
     }
-    return axis_.isZero(0) ? difference_.towards_b() : axis_;
+    return is_zero(axis_) ? difference_.towards_b() : axis_;
   }
 
   void boolean() {
     InflatedDifference<Difference> bodies(difference_);
     const auto found = BooleanGjk<InflatedDifference<Difference>, Trace>(bodies, first_direction(), settings_.max_iterations, trace_).run();
     result_->intersecting = found.intersecting();
-    result_->status = word_of(found.status);
+    result_->status = found.status;
     result_->iterations = found.iterations;
   }
 
@@ -144,7 +144,7 @@ class PairSolver {
     options.max_iterations = settings_.max_iterations;
     Lent<EpaWorkspace<D, S>> workspace;  // looked up where EPA runs, and only there
     const EpaResult<D, S> found = epa(difference_, gjk_.simplex, options, *workspace, trace_);
-    result_->status = word_of(found.status);
+    result_->status = found.status;
     result_->iterations += found.iterations;
     set_bounds(-found.upper_bound, -found.lower_bound);
     const bool flat = found.face < 0;
@@ -170,7 +170,7 @@ class PairSolver {
     options.depth = depth;
     options.interior = difference_.center();
     const MprResult<D, S> found = mpr(bodies, options, trace_);
-    result_->status = word_of(found.status);
+    result_->status = found.status;
     result_->iterations += found.iterations;
     return found;
   }
@@ -261,7 +261,7 @@ class PairSolver {
       Projections<Difference, Trace> projections(difference_, tolerance_for(query), settings_.max_iterations, trace_);
       const ProjectionsResult<D, S> found = projections.run(query == Query::intersect ? difference_.radius() : std::numeric_limits<S>::infinity());
       result_->iterations += found.iterations;
-      result_->status = word_of(found.status);
+      result_->status = found.status;
       if (found.status == ProjectionsStatus::undecided) return false;
       if (found.status == ProjectionsStatus::separated) return apart_at(found.nearest, query), true;
       result_->intersecting = true;
@@ -285,7 +285,7 @@ class PairSolver {
   /// False: apart, and the distance is asked for, or not decided.
   bool sat_answers(const SatResult<D, S>& found, bool yes_or_no) {
     result_->iterations += found.iterations;
-    result_->status = word_of(found.status);
+    result_->status = found.status;
     const bool apart = found.status == SatStatus::separated;
     axis_ = found.normal;
     if (found.status == SatStatus::undecided || (apart && !(yes_or_no && -static_cast<double>(found.depth) > radius_))) return false;

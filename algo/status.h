@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace gjkdbg {
 
@@ -76,5 +78,22 @@ enum class ProjectionsStatus {
 };
 inline constexpr std::array<std::string_view, 3> projections_status_names{"separated", "overlapping", "undecided"};
 constexpr std::string_view word_of(ProjectionsStatus x) { return projections_status_names[static_cast<std::size_t>(x)]; }
+
+/// A status in words, as a result has it: one of the names above, or what another program wrote. A view of a text that is there as long as the program runs: an answer
+/// that owned its text would take as long to make the text as a yes or no takes to find.
+class StatusWord : public std::string_view {
+ public:
+  StatusWord() = default;
+  consteval StatusWord(const char* literal) : std::string_view(literal) {}  // implicit on purpose: a literal is one
+  template <class Status>
+    requires std::is_enum_v<Status>
+  constexpr StatusWord(Status status) : std::string_view(word_of(status)) {}  // implicit on purpose, too
+  std::string text() const { return std::string(*this); }
+  /// The same text, kept from now on. From any thread.
+  static StatusWord kept(std::string_view text);
+
+ private:
+  explicit StatusWord(std::string_view text) : std::string_view(text) {}
+};
 
 }  // namespace gjkdbg

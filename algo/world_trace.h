@@ -21,7 +21,7 @@ struct WorkingFrame {
   WorkingFrame(const PlacedAxes<D>& pose, double scale) : rotation(Matrix<D, double>::Identity()), origin(pose.position), unit(1 / scale) {}
   WorkingFrame(const PlacedAxes<D>& pose, const Vector<D, double>& reference, double scale)
       : rotation(pose.rotation), origin(pose.position), unit(1 / scale) {
-    if (!reference.isZero(0)) origin += rotation * (reference * unit);
+    if (!is_zero(reference)) origin += rotation * (reference * unit);
   }
   Vector<D, double> vector(const Vector<D, S>& v) const { return rotation * (v.template cast<double>() * unit); }
   Vector<D, double> direction(const Vector<D, S>& d) const { return rotation * d.template cast<double>(); }

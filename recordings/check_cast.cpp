@@ -28,7 +28,7 @@ struct CastCheck : CastStretch {
   bool consistent() const {
     const bool met = result.status == "hit" || result.status == "initially_overlapping";
     if ((met || result.status == "miss") && met != result.intersecting) {
-      c.find("wrong-answer", "The status is \"" + result.status + "\", but intersecting is " + (result.intersecting ? "true." : "false."));
+      c.find("wrong-answer", "The status is \"" + result.status.text() + "\", but intersecting is " + (result.intersecting ? "true." : "false."));
       return false;
     }
     if (result.time && !(*result.time >= 0 && *result.time <= 1)) c.find("wrong-time", "The time " + text_of(*result.time) + " is not of the interval, 0 to 1.");

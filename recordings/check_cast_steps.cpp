@@ -223,7 +223,7 @@ struct CastWalk : CastStretch {
 
   void as_the_result(const recorded::CastEnded& e, const std::string& status) const {
     const std::vector<int> pair = result.pair ? std::vector<int>{(*result.pair)[0], (*result.pair)[1]} : std::vector<int>();
-    if (status != result.status) c.find("wrong-answer", "The cast ended as \"" + status + "\", but the result says \"" + result.status + "\".");
+    if (status != result.status) c.find("wrong-answer", "The cast ended as \"" + status + "\", but the result says \"" + result.status.text() + "\".");
     else if (result.time && std::abs(*result.time - e.time) > 1e-9) c.find("wrong-time", "The cast ended at time " + text_of(e.time) + ", but the result says " + text_of(*result.time) + ".");
     else if (pair != e.pair && e.status != CastStatus::iteration_limit) c.find("wrong-pair", "The pair of the cast's end is not that of the result.");
   }

@@ -168,7 +168,7 @@ void RecordCheck::judge(const recorded::SimplexReduced& e) {
 /// Whether a run may end so: with a simplex that has a volume, or without, at its limit, and with these bounds.
 void RecordCheck::judge(const recorded::GjkEnded& e) {
   const std::string status(word_of(e.status));
-  statuses_.insert(status), last_status_ = word_of(e.status);
+  statuses_.emplace(word_of(e.status)), last_status_ = word_of(e.status);
   const bool whole = static_cast<int>(simplex_.size()) == c_.dimension + 1;
   const bool apart = e.status == GjkStatus::converged || e.status == GjkStatus::separated || e.status == GjkStatus::stalled;
   if ((e.status == GjkStatus::enclosed && !whole) || (apart && whole)) contradiction("GJK ended as \"" + status + "\" with the simplex " + list_of(simplex_) + (whole ? ", which encloses the origin." : ", which encloses nothing."));
@@ -265,12 +265,12 @@ std::string RecordCheck::not_as_asked() const {
 /// The answer's counts and its status are those of the phases. (A common point is looked for without a trace.)
 void RecordCheck::result() {
   const Result& r = c_.recording.result;
-  if (!ours_ && r.status == word_of(GjkStatus::converged) && last_status_ == word_of(GjkStatus::iteration_limit)) contradiction("The result's status is \"" + r.status + "\", but the last phase ended as \"" + std::string(last_status_) + "\".");
+  if (!ours_ && r.status == word_of(GjkStatus::converged) && last_status_ == word_of(GjkStatus::iteration_limit)) contradiction("The result's status is \"" + r.status.text() + "\", but the last phase ended as \"" + std::string(last_status_) + "\".");
   if (!ours_ || statuses_.empty()) return;
   if (const std::string wrong = not_as_asked(); !wrong.empty()) contradiction("The scene asks for \"" + std::string(word_of(c_.recording.scene.scene.query)) + "\", but the result " + wrong + ".");
   if (const std::string wrong = not_by_this_method(); !wrong.empty()) contradiction("The method is \"" + std::string(word_of(c_.recording.settings.name)) + "\", but " + wrong + ".");
-  if (!statuses_.contains(r.status)) contradiction("The result's status is \"" + r.status + "\", with which no phase ended.");
-  else if (c_.has_supports && r.status != last_status_) contradiction("The result's status is \"" + r.status + "\", but the last phase ended as \"" + std::string(last_status_) + "\".");
+  if (!statuses_.contains(r.status)) contradiction("The result's status is \"" + r.status.text() + "\", with which no phase ended.");
+  else if (c_.has_supports && r.status != last_status_) contradiction("The result's status is \"" + r.status.text() + "\", but the last phase ended as \"" + std::string(last_status_) + "\".");
   const AnyVector* at[] = {r.witness_a ? &*r.witness_a : nullptr, r.witness_b ? &*r.witness_b : nullptr};
   if (r.signed_distance && r.intersecting != (*r.signed_distance <= 0)) contradiction(std::string("The bodies are called ") + (r.intersecting ? "overlapping" : "apart") + ", at a signed distance of " + text_of(*r.signed_distance) + ".");
   if (r.signed_distance && r.normal && at[0] && at[1]) {

@@ -79,7 +79,7 @@ class RecordCheck {
   const bool ours_;
   AnyVector first_;  ///< the direction GJK says it begins with, until it has
   Number iterations_ = 0, supports_ = 0, newest_ = -1, last_face_ = -1;
-  std::set<std::string> statuses_;            ///< of the phases that ended
+  std::set<std::string_view> statuses_;       ///< of the phases that ended
   std::string_view last_status_;              ///< of these
   std::optional<double> nearest_projected_;   ///< how far apart the bodies are by the points projected last
   std::pair<double, double> projected_bounds_;  ///< that they prove, of SAT

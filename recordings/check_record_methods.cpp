@@ -242,7 +242,7 @@ void RecordCheck::motion() {
   const bool simulated = c_.recording.scene.scene.query == Query::simulate;
   if (!r.time || (simulated && !r.energy)) contradiction(std::string("The result has no \"") + (r.time ? "energy" : "time") + "\".");
   const std::string right_status = contact_unknown_ ? "contact_unknown" : "completed";
-  if (simulated && r.status != right_status) contradiction("The result's status is \"" + r.status + "\", but a simulation runs to its end, " + (contact_unknown_ ? "though not every contact is known" : "and every contact is known") + ": \"" + right_status + "\".");
+  if (simulated && r.status != right_status) contradiction("The result's status is \"" + r.status.text() + "\", but a simulation runs to its end, " + (contact_unknown_ ? "though not every contact is known" : "and every contact is known") + ": \"" + right_status + "\".");
   if (const Number right = simulated ? iterations_ : cast_iterations_.value_or(r.iterations); r.iterations != right) contradiction("The result counts " + std::to_string(r.iterations) + " iterations, the steps " + std::to_string(right) + ".");
   if (r.support_calls < supports_) contradiction("The result counts " + std::to_string(r.support_calls) + " support calls, but " + std::to_string(supports_) + " were made.");
 }

@@ -153,7 +153,7 @@ Result read_result(const Json& json, const Place& place, int dimension) {
   ObjectReader o(json, place);
   Result r;
   const Json& intersecting = o.required("intersecting");
-  r.status = read_string(o.required("status"), o.at("status"));
+  r.status = StatusWord::kept(read_string(o.required("status"), o.at("status")));
   if (!(intersecting.is_null() && unanswered(r))) r.intersecting = read_bool(intersecting, o.at("intersecting"));
   r.signed_distance = read_optional_number(o, "signed_distance");
   r.normal = read_optional_vector(o, "normal", dimension);

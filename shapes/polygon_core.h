@@ -44,9 +44,15 @@ class Polygon {
   const PolygonFour<S>& four(int i) const { return fours_[i]; }
   V corner(int i) const { return at(i, &PolygonFour<S>::corner); }
   V normal(int i) const { return at(i, &PolygonFour<S>::normal); }
+  S offset(int i) const { return fours_[i / 4].offset[static_cast<std::size_t>(i % 4)]; }
   /// Asks for what will be looked at, before it is known where.
   void fetch() const {
-    for (const auto *line = reinterpret_cast<const char*>(fours_), *end = reinterpret_cast<const char*>(fours_ + count()); line < end; line += 64) __builtin_prefetch(line);
+    const char* const first = reinterpret_cast<const char*>(fours_);
+    const auto lines_of = [&](std::size_t fours) {
+      for (std::size_t at = 0; at < fours * sizeof(PolygonFour<S>); at += 64) __builtin_prefetch(first + at);
+    };
+    if (count() == 2) lines_of(2);  // as many as are known beforehand: no loop
+    else lines_of(static_cast<std::size_t>(count()));
   }
   int next(int i) const { return i + 1 == size_ ? 0 : i + 1; }
   int previous(int i) const { return i == 0 ? size_ - 1 : i - 1; }

@@ -270,7 +270,7 @@ void App::title_and_chips(const Area& area) {
   if (!ImGui::IsItemHovered()) return;
   const Result& r = session.recording().result;
   const std::string bounds = r.lower_bound && r.upper_bound ? "\nbounds: " + all_digits(*r.lower_bound) + " to " + all_digits(*r.upper_bound) : "";
-  ImGui::SetTooltip("%s\nstatus: %s%s", whole_result.c_str(), r.status.c_str(), bounds.c_str());
+  ImGui::SetTooltip("%s\nstatus: %s%s", whole_result.c_str(), r.status.text().c_str(), bounds.c_str());
 }
 
 namespace {

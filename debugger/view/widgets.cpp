@@ -335,7 +335,7 @@ bool unproven(const Result& r) { return r.signed_distance && r.lower_bound && r.
 std::string result_text(const Recording& recording) {
   const Result& r = recording.result;
   if (recording.scene.scene.query == Query::simulate) return "time " + short_number(r.time.value_or(0)) + ", energy " + short_number(r.energy.value_or(0)) + (r.status == "contact_unknown" ? ", a contact unknown" : "");
-  if (recording.scene.scene.query == Query::cast) return r.intersecting ? r.status == "hit" ? "hit at " + short_number(*r.time) : "overlapping at first" : r.status == "miss" ? "miss" : r.status;
+  if (recording.scene.scene.query == Query::cast) return r.intersecting ? r.status == "hit" ? "hit at " + short_number(*r.time) : "overlapping at first" : r.status.text();
   if (unanswered(r)) return r.lower_bound && r.upper_bound ? "undecided, between " + short_number(*r.lower_bound) + " and " + short_number(*r.upper_bound) : "undecided";
   std::string text = r.intersecting ? "overlapping" : "apart";
   if (r.signed_distance) {

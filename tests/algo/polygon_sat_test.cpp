@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "algo/polygon_query.h"
 #include "recordings/recording.h"
 #include "shapes/convex_hull.h"
 #include "tests/support/random_scenes.h"
@@ -127,6 +128,40 @@ TEST(PolygonSat, TracesWhatItComputes) {
   }
   EXPECT_GT(projected, 100);
 }
+
+#ifdef GJKDBG_AVX2
+[[gnu::target("avx2")]] PolygonEights::Widest widest_named(const PolygonQuery<double>& query, const PolygonQuery<double>::Placed& placed) { return query.widest_by_eights(placed); }
+
+/// Single precision names an edge only where it is the one, and mostly does.
+TEST(PolygonSat, SinglePrecisionNamesTheWidestEdgeOrNone) {
+  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "no AVX2";
+  PolygonPairs random;
+  int looked_for = 0, named = 0, in_general = 0, named_in_general = 0;
+  for (int k = 0; k < 6000; ++k) {
+    const Scene scene = random.scene(k);
+    const Convex<2, double> core_a(scene.bodies[0].shape), core_b(scene.bodies[1].shape);
+    if (!PolygonQuery<double>::answers(core_a, core_b)) continue;
+    const PolygonQuery<double> query(core_a, core_b, 1);
+    if (!query.eights()) continue;
+    const auto placed = query.placed(scene.bodies[0].pose, scene.bodies[1].pose);
+    GreatestOfFours<double> widest;
+    const PolygonPair<double> pair{query.a(), query.b(), placed.pose.rotation, placed.pose.position};
+    for (int i = 0; i < 2; ++i) widest.take(separations<true>(query.a().four(i), pair));
+    for (int i = 0; i < 2; ++i) widest.take(separations<false>(query.b().four(i), pair));
+    const PolygonEights::Widest found = widest_named(query, placed);
+    const bool general = k % 3 == 2 && k % 4 != 1 && k % 5 > 2 && k % 7 != 3 && k % 19 != 6 && k % 11 != 3;  // neither parallel nor thin nor far out
+    ++looked_for, in_general += general;
+    if (!found.sure) continue;
+    ++named, named_in_general += general;
+    const int place = static_cast<int>(widest.found().place);  // the last edge stands for those that are not there
+    EXPECT_EQ(found.place, place < 8 ? std::min(place, query.a().size() - 1) : 8 + std::min(place - 8, query.b().size() - 1)) << k;
+  }
+  EXPECT_GT(looked_for, 800);
+  EXPECT_GT(named, looked_for / 2);
+  EXPECT_GT(in_general, 40);
+  EXPECT_EQ(named_in_general, in_general);
+}
+#endif
 
 /// Tip to tip, so sharp that along every edge's normal the gap is less than rounding: bodies well apart, once taken for an overlap; in space edge to edge.
 TEST(PolygonSat, NeedlesTipToTipAreApart) {

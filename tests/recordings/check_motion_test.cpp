@@ -295,7 +295,7 @@ TEST(CheckMotion, BouncesAtAnyLimitAreClean) {
     const auto warning = std::find_if(recording.events.begin(), recording.events.end(), unknown);
     EXPECT_EQ(recording.result.status, warning == recording.events.end() ? "completed" : "contact_unknown");
     Recording lies = recording;
-    lies.result.status = warning == recording.events.end() ? "contact_unknown" : "completed";
+    lies.result.status = warning == recording.events.end() ? StatusWord("contact_unknown") : StatusWord("completed");
     EXPECT_NE(told(lies).find("inconsistent"), std::string::npos) << "the status does not fit";
     if (warning == recording.events.end()) continue;
     ++limited;
