@@ -7,6 +7,7 @@
 
 #include "recordings/check.h"
 #include "recordings/recording.h"
+#include "shapes/convex_hull.h"
 #include "tests/support/random_scenes.h"
 
 namespace gjkdbg {
@@ -176,6 +177,26 @@ std::vector<FinalState> after(double seconds, const std::string& shape, const st
   return record(scene).result.bodies.value();
 }
 
+/// Of a triangle that stands on a side with a corner within it: turned, rounding has that corner on the hull or not.
+TEST(Contact, AnEdgeIsTouchedWholeWithACornerWithinItByRounding) {
+  const Scene table = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 2, "query": "contact", "bodies": [
+    {"shape": {"type": "box", "half_extents": [5, 0.5]}, "pose": {"position": [0, -0.5]}}, {"shape": {"type": "box", "half_extents": [1, 1]}}]})", {}).scene;
+  int within = 0;
+  for (int k = 0; k < 60; ++k) {
+    Scene scene = table;
+    const Eigen::Matrix2d turn = Eigen::Rotation2Dd(0.1 * k).toRotationMatrix();
+    PointSet triangle{PointSetKind::hull, {}, {}};
+    for (const Eigen::Vector2d& p : {Eigen::Vector2d(-1, 0), Eigen::Vector2d(0.1, 0), Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1)}) triangle.points.push_back(turn * p);
+    within += convex_hull(triangle.points, 2).vertices.size() == 4;
+    scene.bodies[1].shape.geometry = triangle;
+    scene.bodies[1].pose.position = Eigen::Vector2d(0, -0.01), scene.bodies[1].pose.rotation = PlaneAngle{-0.1 * k}, scene.bodies[1].pose.matrix = turn.transpose();
+    const auto found = solve(scene, resolve_settings({}, scene)).contacts.value();
+    ASSERT_EQ(found.size(), 2u) << k;
+    EXPECT_NEAR((found[0].point_b - found[1].point_b).norm(), 2, 1e-9) << k;
+  }
+  EXPECT_GT(within, 5);
+}
+
 /// Pushing one corner lifts another one: what comes to rest rests, without a tremble.
 TEST(Contact, WhatStandsStandsStill) {
   for (const std::string& shape : {cylinder, cone, std::string(R"({"type": "box", "half_extents": [0.5, 0.5, 0.5]})")}) {
@@ -187,6 +208,14 @@ TEST(Contact, WhatStandsStandsStill) {
       EXPECT_LE(s.velocity.norm() + AnyVector(Eigen::Map<const Eigen::Vector3d>(s.angular_velocity.data())).norm(), 1e-6) << shape;
     }
   }
+}
+
+/// What is slower than a step's fall or two does not bounce, however elastic: a box would go on trembling on its corners.
+TEST(Contact, ABouncyBoxComesToRestAtAll) {
+  const SceneFile scene = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 2, "query": "simulate", "gravity": [0, -9.81], "time_step": 0.01, "steps": 500, "bodies": [
+    {"shape": {"type": "box", "half_extents": [5, 0.5]}, "pose": {"position": [0, -0.5]}, "static": true, "restitution": 0.8},
+    {"shape": {"type": "box", "half_extents": [0.5, 0.5]}, "pose": {"position": [0, 0.6]}, "restitution": 0.8}]})", {});
+  EXPECT_LE(record(scene).result.bodies.value()[1].velocity.norm(), 1e-9);
 }
 
 /// Of an overlap a step takes a share away, however many contact points it has: each of a box's four points would take it again.

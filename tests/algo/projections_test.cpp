@@ -187,6 +187,33 @@ TEST(Projections, WitnessesLieOnTheBodies) {
 }
 
 /// Ellipsoids so thin that the numbers do not reach: steps that lead nowhere are no overlap.
+/// The way between nearest points on edges is upright on both, however short it is: the plane across it proves the gap, and GJK is hardly ever asked.
+TEST(Projections, DecideBesideEdgesHoweverNear) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (const double gap : {1e-5, 1e-8, 1e-12}) {
+    int pairs = 0, decided = 0;
+    for (int k = 0; k < 300; ++k) {
+      Scene scene;
+      scene.dimension = 3, scene.query = Query::distance;
+      for (int i = 0; i < 2; ++i) {
+        Body b{"", {Box{Eigen::Vector3d(-0.3 + 0.2 * uniform(random), -0.5, -0.7), Eigen::Vector3d(0.5, 0.4, 0.6), false}, 0}, identity_pose(3)};
+        if (i == 0 && k % 2 == 0) b.shape = {Capsule{0, 0.7, 1}, 0};
+        b.pose.matrix = Eigen::Quaterniond(uniform(random), uniform(random), uniform(random), uniform(random)).normalized().toRotationMatrix();
+        b.pose.position = Eigen::Vector3d(2 * i + 0.3 * uniform(random), uniform(random), uniform(random));
+        scene.bodies.push_back(b);
+      }
+      const Result first = solve(scene, resolve_settings({}, scene));
+      if (first.intersecting) continue;
+      scene.bodies[1].pose.position -= *first.normal * (*first.signed_distance - gap);
+      const Result r = solve(scene, projections(scene));
+      EXPECT_NEAR(*r.signed_distance, gap, 1e-14);
+      ++pairs, decided += r.status == word_of(ProjectionsStatus::separated);
+    }
+    EXPECT_GT(decided, 0.9 * pairs) << gap;
+  }
+}
+
 TEST(Projections, OfWhatIsNextToFlatClaimNoOverlap) {
   RandomScenes random(31);
   int apart = 0;
