@@ -108,7 +108,9 @@ class Program(unittest.TestCase):
 
     def test_dump_by_gallery_name(self):
         self.assertEqual(run("dump", "two-unit-cubes", cwd=self.path).returncode, 0)
-        self.assertEqual(run("dump", "three-unit-cubes", cwd=self.path).stderr, "gjkdbg: three-unit-cubes: is neither a file nor a scene of the gallery, which gjkdbg scenes lists\n")
+        self.assertEqual(run("dump", "xyzzy", cwd=self.path).stderr, "gjkdbg: xyzzy: is neither a file nor a scene of the gallery, which gjkdbg scenes lists\n")
+        for word, scene in (("three-unit-cubes", "two-unit-cubes"), ("sphere-sphere", "pair-sphere-sphere"), ("newtons-cradle", "sim-newtons-cradle"), ("box-box-depe", "box-box-deep")):
+            self.refused(run("dump", word, cwd=self.path), f"which gjkdbg scenes lists; did you mean {scene}?")
 
     def test_flags_override_the_scene(self):
         method = json.loads(run("dump", self.scene, "--scalar", "float", "--tolerance", "1e-3", "--max_iterations", "7", "--penetration", "none",
@@ -211,6 +213,12 @@ class Program(unittest.TestCase):
         self.refused(run("frobnicate"), '"frobnicate" is no command', "--help")
         self.refused(run("dupm", self.scene), "did you mean", "dump")
         self.refused(run("--frobnicate"), "--help")
+        self.refused(run("--vesion"), '"--vesion" is no option; did you mean "--version"? (see gjkdbg --help)')
+        self.refused(run("dump", self.scene, "--scaler", "float"), '"--scaler" is no option of dump; did you mean "--scalar"? (see gjkdbg dump --help)')
+        self.refused(run("query", "--job=2"), '"--job" is no option of query; did you mean "--jobs"?')
+        self.refused(run("atlas", "--gate"), "gjkdbg atlas --help")
+        self.refused(run("dump", self.scene, "--method", "gjkk"), "--method: must be one of gjk,gjk-boolean", "not gjkk; did you mean gjk?")
+        self.refused(run("sweep", "--exec", "true", "--scalar", "half"), "--scalar: must be one of double,float, not half (see gjkdbg sweep --help)")
         self.refused(subprocess.run([PROGRAM], capture_output=True, text=True), "--help")
         for command in ("dump", "check", "query", "verify"):
             self.refused(run(command, self.path), "is a directory")

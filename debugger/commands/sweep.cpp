@@ -263,8 +263,8 @@ void add_sweep(CLI::App& app, Status& status) {
   command->add_option("--dimension", options->dimension, "only scenes of this dimension")->check(between(1, 3));
   command->add_option("--seed", options->seed, "of the random scenes (1)")->check(between(0, 4294967295.0));
   command->add_option("-o,--output", options->output, "folder for the scenes that fail, shrunk")->check(named());
-  command->add_option("--method", options->by, "gjk-accelerated: the program leads its directions by momentum (gjk)")->check(CLI::IsMember({"gjk", "gjk-accelerated"}));
-  command->add_option("--scalar", options->scalar, "float: the program counts in single precision (as the scene says)")->check(CLI::IsMember({"double", "float"}));
+  command->add_option("--method", options->by, "gjk-accelerated: the program leads its directions by momentum (gjk)")->check(one_of({"gjk", "gjk-accelerated"}));
+  command->add_option("--scalar", options->scalar, "float: the program counts in single precision (as the scene says)")->check(one_of({"double", "float"}));
   command->add_option("--max-supports,--max_supports", options->limits.max_supports, "support queries a scene (1000)")->check(between(1, 10000000));
   command->add_option("--timeout", options->limits.timeout, "seconds a scene (10)")->check(between(0.01, 86400.0));
   command->callback([options, &status] { status = options->run(); });
