@@ -32,6 +32,7 @@ CAUSES = [
     ("single precision, not said", "kit", "pair-sphere-sphere", SINGLE, "few-digits", ["run with --scalar float"], []),
     ("single precision, far out", "kit", "far-from-origin", SINGLE, "wrong-closest", ["from the world's origin, where single precision", "not weights that are not clamped"], ["--scalar", "float"]),
     ("the point of one vertex is another", "kit", "box-box-apart", [("closest=v)", "closest=v if len(simplex) > 1 else scaled(0.5, v))")], "wrong-closest", ["One vertex has no weights", "not weights that are not clamped"], []),
+    ("a face test turned, where the whole holds the origin", "muratori", "box-box-deep", [("if dot(n,sub(s[k][0],a))>0: n=neg(n)", "if dot(n,sub(s[k][0],a))<0: n=neg(n)")], "any:wrong-region", ["The whole of it holds the origin: the bodies overlap, and the search is over", "not comes as near as"], []),
     ("towards a vertex only, and wrong", "kit", "box-box-apart", [(SUPPORT, "w = support(scaled(-1, simplex[0].w))")], "direction-not-perpendicular", ["The run goes wrong at step ", "not costs iterations"], []),
     ("a wrong distance, and nothing else", "kit", "box-box-apart", [SILENT, ("tolerance * dot(v, v) or any", "0.5 * dot(v, v) or any")], "wrong-distance", ["report the simplex after every step"], []),
     ("a squared distance, which names itself", "kit", "box-box-apart", [SILENT, ("signed_distance=distance, normal", "signed_distance=distance * distance, normal")], "wrong-distance", ["That is its square", "not report the simplex"], []),
