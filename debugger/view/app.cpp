@@ -5,6 +5,9 @@
 
 #include "debugger/view/explain.h"
 #include "debugger/view/input.h"
+#include "recordings/json_writing.h"
+
+#include <nlohmann/json.hpp>
 
 namespace gjkdbg {
 
@@ -36,6 +39,36 @@ void App::open_or_throw(const std::filesystem::path& file) {
   if (session.findings().empty()) return;
   session.go_to(session.findings().front().step);  // what is looked for
   note("at the first finding; Home is the beginning");
+}
+
+namespace {
+
+bool same_bodies(SceneFile x, SceneFile y) {
+  x.method = y.method = {};
+  return scene_to_json(x) == scene_to_json(y);
+}
+
+}  // namespace
+
+void App::show_run(Recording run) {
+  const auto at_first_finding = [&] { return !session.findings().empty() && session.step() == session.findings().front().step; };
+  const bool again = foreign(session.recording()), follows = !again || at_first_finding();
+  if (same_bodies(session.scene(), run.scene)) {
+    session.open_again(std::move(run));
+  } else {
+    const std::string name = run.scene.scene.name;
+    session.open(std::move(run), name.empty() ? "your solver's run" : name);
+    show_lab = false;
+  }
+  settings.selected.reset();
+  message.clear();
+  if (session.findings().empty()) {
+    if (again) note("run again: no findings");
+    return;
+  }
+  if (follows) session.go_to(session.findings().front().step);
+  note(at_first_finding() ? std::string(again ? "run again: " : "") + "at the first finding; Home is the beginning"
+                          : "run again: the first finding is at step " + std::to_string(session.findings().front().step));
 }
 
 void App::open_gallery(const std::string& name) { open(gallery_.file(name)); }
