@@ -540,6 +540,7 @@ class Program(unittest.TestCase):
         # One method alone.
         result = run("atlas", "--quick", "--method", "johnson", "-o", self.path / "one", "--gate", kept)
         self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertRegex(result.stdout, r"\ngate: \d\d cells compared, none worse than kept or not measured\n$")
         one = json.loads((self.path / "one/atlas.json").read_text())
         self.assertEqual({c["method"] for f in one["families"] for c in f["cells"]}, {"Johnson", "Johnson, float"})
         # Drawn, with rows in words and in colours, whatever the folder's name is and however few columns there are.
@@ -557,6 +558,7 @@ class Program(unittest.TestCase):
         result = run("atlas", "--quick", "--method", "johnson", "-o", folder, "--gate", self.write("better.json", better))
         self.assertEqual(result.returncode, 1)
         self.assertIn("worse than kept", result.stdout)
+        self.assertRegex(result.stdout, r"\ngate: \d\d cells compared, [1-9]\d* worse than kept or not measured\n$")
         self.refused(run("atlas", "--quick", "-o", folder, "--gate", self.scene), "/format")
         for change, place in ({"version": 99}, "/version"), ({"families": 5}, "/families"), ({"families": []}, "/families"), ({"families": [{"name": "K1", "cells": "x"}]}, "/families/0/cells"), ({"families": [7]}, "/families/0"):
             self.refused(run("atlas", "--quick", "-o", folder, "--gate", self.write("odd.json", {**better, **change})), place)

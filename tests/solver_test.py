@@ -548,7 +548,7 @@ class Solver(unittest.TestCase):
         def sweep(*arguments):
             return subprocess.run([PROGRAM, "sweep", "--exec", f"/usr/bin/python3 {KIT}", *arguments], capture_output=True, text=True)
         some = sweep("2d-deep", ROOT / "recordings/gallery/box-box-apart.scene.json", "sim-falling-box", "level-mesh", "--dimension", "2")
-        self.assertEqual((some.returncode, some.stdout), (0, "\n1 scenes clean, 0 not\n3 not asked: a program is not asked of bodies that move and of meshes, nor here of other dimensions\n"))
+        self.assertEqual((some.returncode, some.stdout), (0, "\n1 scene clean, 0 not\n3 not asked: a program is not asked of bodies that move and of meshes, nor here of other dimensions\n"))
         self.assertIn("\n3 scenes clean, 0 not\n", sweep("2d-deep", "--random", "2").stdout)
         with tempfile.TemporaryDirectory() as folder:
             # A scene that is wrong is told before the first is asked of, and of two scenes of one name both are kept.

@@ -139,9 +139,10 @@ struct Sweep {
     for (const SceneFile& scene : chosen()) one(scene);
     RandomPairs pairs(seed, dimension);
     for (int i = 0; i < random.value_or(scenes.empty() ? 100 : 0); ++i) one(pairs.next(i));
-    std::cout << "\n" << passed << " scenes clean, " << failed << " not\n";
+    std::cout << "\n" << passed << (passed == 1 ? " scene clean, " : " scenes clean, ") << failed << " not\n";
     if (!scenes.empty() && not_asked > 0) std::cout << not_asked << " not asked: a program is not asked of bodies that move and of meshes" << (dimension > 0 ? ", nor here of other dimensions" : "") << "\n";
     for (const auto& [code, count] : codes) std::cout << "  " << std::setw(30) << code << " " << count << "\n";
+    if (failed > 0) std::cout << "What each means, with the numbers: gjkdbg run SCENE --exec ...\n";
     return failed > 0 ? exit_difference : exit_done;
   }
 

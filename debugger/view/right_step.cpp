@@ -44,10 +44,11 @@ struct RightStep {
     had.insert(had.end(), frame.dropped.begin(), frame.dropped.end());
     const auto best = nearest(had);
     if (!best) return {};
-    std::vector<int> places(best->subset.begin(), best->subset.end());
-    std::sort(places.begin(), places.end());
-    std::string kept = places.size() == had.size() ? "Keep all of" : places.size() == e.region.size() ? "Keep" : "Keep only";
-    for (const int i : places) kept += " #" + std::to_string(had[static_cast<std::size_t>(i)]);
+    std::vector<int> right;
+    for (const int i : best->subset) right.push_back(had[static_cast<std::size_t>(i)]);
+    std::sort(right.rbegin(), right.rend());  // newest first
+    std::string kept = right.size() == had.size() ? "Keep all of" : right.size() == e.region.size() ? "Keep" : "Keep only";
+    for (const int v : right) kept += " #" + std::to_string(v);
     if (holds_the_origin(*best, had)) return kept + ": the origin lies in it, so the bodies overlap. The search is over.";
     return kept + ": |v| = " + short_number(best->v.norm()) + ", v = " + short_vector(best->v) + ". Then search along -v.";
   }
