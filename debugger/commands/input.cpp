@@ -119,7 +119,7 @@ void override_name(std::optional<Enum>& setting, const std::optional<std::string
 
 void MethodFlags::add_to(CLI::App& app) {
   const auto group = "Method (overrides the scene's)";
-  app.add_option("--method,--name", name_, "algorithm; fastest: whichever the charts show for these bodies")->check(named_in(method_names))->group(group);
+  app.add_option("--name,--method", name_, "algorithm; fastest: whichever the charts show for these bodies")->check(named_in(method_names))->group(group);
   app.add_option("--closest_point,--closest-point", closest_point_, "GJK's closest-point sub-algorithm")->check(named_in(closest_point_names))->group(group);
   app.add_option("--penetration", penetration_, "what runs when the cores overlap")->check(named_in(penetration_names))->group(group);
   app.add_option("--scalar", scalar_, "arithmetic")->check(named_in(scalar_names))->group(group);
