@@ -101,6 +101,26 @@ TEST_F(OpenRun, OfASolverComesAtItsFirstFindingAndLeavesTheRestAsItWas) {
   EXPECT_EQ(session.step(), 5u);
 }
 
+/// A run that breaks off says nothing wrong, and has findings all the same: their colour, as of a wrong answer.
+TEST_F(OpenRun, ThatBreaksOffIsNotGrey) {
+  const auto redder = [&](Recording run) {
+    app.show_run(std::move(run));
+    app.drop_note();
+    host.frame(), host.frame();
+    const Image image = host.image();
+    const std::size_t at = 3 * (21 * static_cast<std::size_t>(image.width) + 1258);  // in the chip, right of its text
+    return image.rgb[at] - image.rgb[at + 2];
+  };
+  Recording run = solvers_run();
+  run.result = {};
+  run.events.resize(6);
+  run.events.push_back(recorded::Warning{"support-limit", "More than 2 support queries."});
+  EXPECT_GT(redder(run), 18);
+  Recording right = record(run.scene);
+  right.generator = run.generator;
+  EXPECT_LT(redder(right), 12);
+}
+
 /// Not that |v| is 3e-16, along which to search on.
 TEST_F(OpenRun, IsToldToKeepAllThatHoldsTheOrigin) {
   Recording run = solvers_run();

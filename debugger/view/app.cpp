@@ -269,11 +269,11 @@ void App::title_and_chips(const Area& area) {
   const auto& findings = session.findings();
   const auto errors = std::count_if(findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Finding::Severity::error; });
   const bool open = unanswered(session.recording().result), wrong = !open && std::any_of(findings.begin(), findings.end(), about_the_answer);
-  const bool neutral = !wrong && (simulated || open);
+  const bool found_wrong = wrong || errors > 0, neutral = simulated || open;  // findings have one colour everywhere
   const std::string found = wrong || errors == 0 ? "" : errors == 1 ? "  \xC2\xB7  1 finding" : "  \xC2\xB7  " + std::to_string(errors) + " findings";
   const std::string whole_result = (wrong ? "wrong: " : "") + result_text(session.recording()) + found, name = session.title() + (session.can_undo() ? " (edited)" : "");
   std::string result = whole_result;
-  const Colour tone = neutral ? theme.palette.text_soft : wrong ? theme.palette.newest : session.recording().result.intersecting ? theme.palette.chosen : theme.palette.support;
+  const Colour tone = found_wrong ? theme.palette.newest : neutral ? theme.palette.text_soft : session.recording().result.intersecting ? theme.palette.chosen : theme.palette.support;
   const std::string whole = method_text(session.recording()), short_name = foreign(session.recording()) ? "yours" : std::string(word_of(session.recording().settings.name));
   std::string method = whole + "  \xC2\xB7  " + std::string(word_of(session.scene().scene.query));
   const auto width = [&](const std::string& text) { return theme.small->CalcTextSizeA(theme.small->FontSize, 1e6f, 0, text.c_str()).x + theme.px(22); };
