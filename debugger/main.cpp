@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
@@ -21,14 +22,43 @@
 
 namespace {
 
-/// What is wrong with the command line; of a command that there is not, its name.
-std::string usage_error(const CLI::App& app, const CLI::ParseError& e) {
-  const std::vector<std::string> words = app.remaining();
-  if (!app.get_subcommands().empty() || words.empty()) return e.what();
+/// `"dupm" is no command; did you mean "dump"?`
+std::string misspelt(const std::string& word, const std::string& what, const std::vector<std::string>& names) {
+  const std::string near = gjkdbg::nearest_name(word, {names.begin(), names.end()});
+  return "\"" + word + "\" is no " + what + (near.empty() ? "" : "; did you mean \"" + near + "\"?");
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(command->get_name());
-  const std::string near = gjkdbg::nearest_name(words[0], {names.begin(), names.end()});
-  return "\"" + words[0] + "\" is no command" + (near.empty() ? "" : "; did you mean \"" + near + "\"?");
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+/// An option has several names ("--name,--method"), and CLI11 tells the first: here the one that was typed.
+std::string as_typed(std::string message, const CLI::App& command, const std::vector<std::string>& typed) {
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string first = option->get_name();
+    if (!message.starts_with(first + ":") && !message.starts_with(first + " ")) continue;
+    for (const std::string& name : option->get_lnames())
+      if (std::any_of(typed.begin(), typed.end(), [&](const std::string& word) { return word.substr(0, word.find('=')) == "--" + name; })) return message.replace(0, first.size(), "--" + name);
+  }
+  return message;
+}
+
+/// What is wrong with the command line, and whose help says more. An option that there is not comes first: what stands after it may have been taken for
+/// something else, or be missing.
+std::string usage_error(const CLI::App& app, const CLI::ParseError& e, const std::vector<std::string>& typed) {
+  const CLI::App* command = app.get_subcommands().empty() ? nullptr : app.get_subcommands().front();
+  const std::string more = " (see gjkdbg " + (command ? command->get_name() + " " : "") + "--help)";
+  const std::vector<std::string> words = command ? command->remaining() : app.remaining();
+  for (const std::string& word : words)
+    if (word.size() > 1 && word[0] == '-')
+      return misspelt(word.substr(0, word.find('=')), command ? "option of " + command->get_name() : "option", option_names(command ? *command : app)) + more;
+  if (command || words.empty()) return as_typed(e.what(), command ? *command : app, typed) + more;
+  std::vector<std::string> names;
+  for (const CLI::App* each : app.get_subcommands([](const CLI::App*) { return true; })) names.push_back(each->get_name());
+  return misspelt(words[0], "command", names) + more;
 }
 
 int run(int argc, char** argv) {
@@ -57,7 +87,7 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);
-    std::cerr << "gjkdbg: " << one_line(usage_error(app, e)) << " (see gjkdbg --help)\n";
+    std::cerr << "gjkdbg: " << one_line(usage_error(app, e, {argv, argv + argc})) << "\n";
     return exit_bad_input;
   } catch (const Error& e) {
     std::cerr << "gjkdbg: " << one_line(e.line()) << "\n";

@@ -19,7 +19,7 @@ struct Finding {
   std::string message;  ///< what is wrong, with the numbers, what was expected, the usual cause
 };
 
-/// The first finding of every code, in the order of steps. Those after the first error begin with "Follows from step N, probably."
+/// The first finding of every code, in the order of steps. Those after the first error begin with "Follows from step N, probably.", of the same step with "Of the same cause, probably."
 std::vector<Finding> check(const Recording& recording);
 
 /// {"findings": [ … ]}

@@ -139,7 +139,7 @@ std::vector<Finding> CheckContext::told() {
   }
   if (const auto digits = std::find_if(findings_.begin(), root, [](const Finding& f) { return f.code == "few-digits"; }); digits != root) root->message += " It may come of the digits that are lacking at step " + std::to_string(digits->step) + ".";
   tell_what_to_report(*root);
-  for (auto f = root + 1; f != findings_.end(); ++f) f->message = "Follows from step " + std::to_string(root->step) + ", probably. " + f->message;
+  for (auto f = root + 1; f != findings_.end(); ++f) f->message = (f->step == root->step ? "Of the same cause, probably. " : "Follows from step " + std::to_string(root->step) + ", probably. ") + f->message;
   return std::move(findings_);
 }
 

@@ -299,7 +299,8 @@ class EpaCheck {
   void check_gain(int newest);
   void tell_no_gain();
   void check_removed(const recorded::PolytopeGrown& e, const std::map<int, Face>& before);
-  void check_kept(int newest);
+  void check_kept(int newest, const std::vector<int>& removed);
+  std::string why_not_grown(const AnyVector& w) const;
   bool check_closed(const std::map<int, Face>& before);
   std::string winding_of(const std::map<int, Face>& faces) const;
   void check_convex(const std::vector<recorded::Face>& added, std::optional<int> newest);

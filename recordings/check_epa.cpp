@@ -180,7 +180,7 @@ void EpaCheck::operator()(const recorded::PolytopeGrown& e) {
   for (const int f : e.removed) faces_.erase(f);
   for (const auto& f : e.added) add(f);
   orient(e.added);
-  check_kept(e.vertex);
+  check_kept(e.vertex, e.removed);
   if (check_closed(before)) check_removed(e, before);  // a face that is lost leaves a hole
   check_convex(e.added, e.vertex);
   check_origin();
@@ -240,11 +240,13 @@ bool EpaCheck::check_closed(const std::map<int, Face>& before) {
 }
 
 /// A face the newest vertex sees should have gone.
-void EpaCheck::check_kept(int newest) {
+void EpaCheck::check_kept(int newest, const std::vector<int>& removed) {
   const AnyVector& w = *c_.vertex(newest);
   for (const auto& [number, face] : faces_) {
     if (!face.usable || face.normal.dot(w) - face.distance <= std::max(1e-6 * c_.size, c_.tolerance) + face.uncertain) continue;
-    c_.find("visible-face-kept", "Vertex " + std::to_string(newest) + " sees " + name(number) + " from " + text_of(face.normal.dot(w) - face.distance) + " beyond it, but the face was kept. Every face with normal . w > distance must go before the horizon is closed.");
+    c_.find("visible-face-kept", "Vertex " + std::to_string(newest) + " sees " + name(number) + " from " + text_of(face.normal.dot(w) - face.distance) + " beyond it, but the face was kept. Every face with normal . w > distance must go before the horizon is closed." +
+                                     (number == chosen_ && c_.dimension == 2 ? " It is the edge that was chosen: in a list of corners the new one belongs between the two ends of that edge."
+                                      : removed.size() == 1 && removed[0] == chosen_ ? " Only the face chosen was removed: look at all the others, too." : ""));
     return;
   }
 }
@@ -282,13 +284,23 @@ void EpaCheck::tell_no_gain() {
   no_gain_.reset();
 }
 
+/// Whether a support that came again should have ended the search, or made the polytope grow.
+std::string EpaCheck::why_not_grown(const AnyVector& w) const {
+  const auto face = faces_.find(chosen_.value_or(-1));
+  const bool known = face != faces_.end() && face->second.usable && w.size() == c_.dimension && w.allFinite();
+  const double beyond = known ? face->second.normal.dot(w) - face->second.distance : 0, limit = known ? std::max(1e-6 * c_.size, c_.tolerance) + face->second.uncertain : 0;
+  if (!known) return "Stop when normal . w is no more than the face's distance and a tolerance, else remove the faces that w sees.";
+  if (beyond > limit) return "The support lies " + text_of(beyond) + " beyond " + name(*chosen_) + ", so there is more to come: remove every face that it sees (normal . w > distance), and join the rim of the hole to it. None was removed.";
+  return "The support lies no farther out than " + name(*chosen_) + ", so the search was over: stop when normal . w is no more than the face's distance and a tolerance.";
+}
+
 /// After a face is chosen, the support is asked for across it. A solver may ask as it likes, but not along the way back.
 void EpaCheck::operator()(const recorded::SupportQueried& e) {
   const AnyVector n = std::exchange(chosen_normal_, AnyVector());
   tell_no_gain();
   if (const auto found = e.phase == Phase::epa ? directions_.add(e.direction, c_.step) : std::nullopt)
     c_.find_cost("cycle", "The direction " + text_of(e.direction) + (found->period == 1 ? " is" : ", and the " + std::to_string(found->period - 1) + " before it, are") + " asked along for the fourth time running, as from step " +
-                         std::to_string(found->first_step) + " on, and the polytope has not grown: the same supports come back, and EPA will never end. Stop when normal . w is no more than the face's distance and a tolerance, else remove the faces that w sees.");
+                         std::to_string(found->first_step) + " on, and the polytope has not grown: the same supports come back, and EPA will never end. " + why_not_grown(e.w));
   if (e.phase != Phase::epa || n.size() == 0 || n.isZero(0) || !n.allFinite()) return;
   const AnyVector d = e.direction.stableNormalized(), across = n.stableNormalized();
   if (d.dot(across) < -0.999)

@@ -208,8 +208,10 @@ void GjkCheck::check_region(const recorded::SimplexReduced& e) {
   for (const int i : best.subset) right.push_back(before[static_cast<std::size_t>(i)]);
   // What a search begins with is its own affair: some try a few supports first, and then start from one of them.
   const bool starts = c_.inferred && !reported_ && pending_.size() > 1 && e.region.size() < pending_.size();
-  const std::string message = "Of " + list_of(before) + " the part " + list_of(e.region) + " was kept, whose nearest point is " + text_of(v.norm()) + " from the origin. The part " + list_of(right) + " comes as near as " +
-                              text_of(best.v.norm()) + ". The usual cause is a region test with a flipped sign, or one made before the vertices were reordered.";
+  const bool holds_origin = static_cast<int>(right.size()) == c_.dimension + 1 || best.v.norm() <= c_.digits() * c_.size;
+  const std::string nearer = (right.size() == before.size() ? "The whole of it " : "The part " + list_of(right) + " ") +
+                             (holds_origin ? "holds the origin: the bodies overlap, and the search is over" : "comes as near as " + text_of(best.v.norm()));
+  const std::string message = "Of " + list_of(before) + " the part " + list_of(e.region) + " was kept, whose nearest point is " + text_of(v.norm()) + " from the origin. " + nearer + ". The usual cause is a region test with a flipped sign, or one made before the vertices were reordered.";
   c_.find_unless(starts || v.norm() <= best.v.norm() + c_.rounding_of(all), "wrong-region", message);
 }
 

@@ -135,7 +135,8 @@ struct Judge {
     if (along >= sd - slack && as_said) return;
     if (way_out()) return;
     if (against >= sd - slack)
-      c.find("flipped-normal", "The normal " + text_of(n) + " points from body 1 to body 0; expected is " + text_of(AnyVector(-n)) + ", from body 0 towards body 1.");
+      c.find("flipped-normal", "The normal " + text_of(n) + " points from body 1 to body 0; expected is " + text_of(AnyVector(-n)) + ", from body 0 towards body 1. " +
+                                   (sd > 0 ? "v = a - b leads from body 1 to body 0; the normal is -v / |v|." : "The usual cause is the normal of B - A, or one turned towards the origin: it is that of the nearest face of A - B, away from the origin."));
     else
       c.find("wrong-normal", "Along the normal " + text_of(n) + " the bodies are " + (along > 0 ? "apart by " + text_of(along) : text_of(-along) + " deep") + ", but along " + text_of(*right.normal) + " " + (sd > 0 ? "apart by " + text_of(sd) : "only " + text_of(-sd) + " deep") + ".");
   }

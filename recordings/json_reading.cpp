@@ -255,7 +255,7 @@ void parse_json_in_parts(std::string_view text, std::string_view list, const std
   for (std::size_t i = 0; i < elements.size(); ++i) element(i, elements[i]);
 }
 
-std::string nearest_name(std::string_view word, const std::vector<std::string_view>& candidates) {
+std::string nearest_name(std::string_view word, const std::vector<std::string_view>& candidates, std::size_t one_letter_in) {
   const auto distance = [](std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), 0);
@@ -271,7 +271,7 @@ std::string nearest_name(std::string_view word, const std::vector<std::string_vi
     return row[b.size()];
   };
   std::string best;
-  std::size_t least = std::max<std::size_t>(2, word.size() / 2) + 1;
+  std::size_t least = std::max<std::size_t>(2, word.size() / one_letter_in) + 1;
   for (const std::string_view candidate : candidates)
     if (const std::size_t d = distance(word, candidate); d < least && (d < 2 || word.front() == candidate.front())) least = d, best = candidate;  // who errs twice hardly errs at the first letter
   return best;

@@ -53,8 +53,8 @@ std::string member_text(std::string_view text, std::string_view key);
 void parse_json_in_parts(std::string_view text, std::string_view list, const std::function<void(const Json&)>& rest,
                          const std::function<void(std::size_t, const Json&)>& element);
 
-/// The candidate nearest to a word, by edit distance; empty when none is near.
-std::string nearest_name(std::string_view word, const std::vector<std::string_view>& candidates);
+/// The candidate nearest to a word, by edit distance; empty when none is near: at most two letters differ, or one in so many.
+std::string nearest_name(std::string_view word, const std::vector<std::string_view>& candidates, std::size_t one_letter_in = 2);
 
 /// What anything may carry.
 inline constexpr std::array<std::string_view, 5> note_names{"id", "name", "description", "source", "tags"};

@@ -108,7 +108,9 @@ class Program(unittest.TestCase):
 
     def test_dump_by_gallery_name(self):
         self.assertEqual(run("dump", "two-unit-cubes", cwd=self.path).returncode, 0)
-        self.assertEqual(run("dump", "three-unit-cubes", cwd=self.path).stderr, "gjkdbg: three-unit-cubes: is neither a file nor a scene of the gallery, which gjkdbg scenes lists\n")
+        self.assertEqual(run("dump", "xyzzy", cwd=self.path).stderr, "gjkdbg: xyzzy: is neither a file nor a scene of the gallery, which gjkdbg scenes lists\n")
+        for word, scene in (("three-unit-cubes", "two-unit-cubes"), ("sphere-sphere", "pair-sphere-sphere"), ("newtons-cradle", "sim-newtons-cradle"), ("box-box-depe", "box-box-deep")):
+            self.refused(run("dump", word, cwd=self.path), f"which gjkdbg scenes lists; did you mean {scene}?")
 
     def test_flags_override_the_scene(self):
         method = json.loads(run("dump", self.scene, "--scalar", "float", "--tolerance", "1e-3", "--max_iterations", "7", "--penetration", "none",
@@ -211,6 +213,14 @@ class Program(unittest.TestCase):
         self.refused(run("frobnicate"), '"frobnicate" is no command', "--help")
         self.refused(run("dupm", self.scene), "did you mean", "dump")
         self.refused(run("--frobnicate"), "--help")
+        self.refused(run("--vesion"), '"--vesion" is no option; did you mean "--version"? (see gjkdbg --help)')
+        self.refused(run("dump", self.scene, "--scaler", "float"), '"--scaler" is no option of dump; did you mean "--scalar"? (see gjkdbg dump --help)')
+        self.refused(run("query", "--job=2"), '"--job" is no option of query; did you mean "--jobs"?')
+        self.refused(run("atlas", "--gate"), "gjkdbg atlas --help")
+        self.refused(run("dump", self.scene, "--method", "gjkk"), "--method: must be one of gjk,gjk-boolean", "not gjkk; did you mean gjk?")
+        self.refused(run("dump", self.scene, "--name", "gjkk"), "gjkdbg: --name: must be one of ")
+        self.refused(run("dump", self.scene, "--max-iterations=0"), "gjkdbg: --max-iterations: must be a number")
+        self.refused(run("sweep", "--exec", "true", "--scalar", "half"), "--scalar: must be one of double,float, not half (see gjkdbg sweep --help)")
         self.refused(subprocess.run([PROGRAM], capture_output=True, text=True), "--help")
         for command in ("dump", "check", "query", "verify"):
             self.refused(run(command, self.path), "is a directory")
@@ -532,6 +542,7 @@ class Program(unittest.TestCase):
         # One method alone.
         result = run("atlas", "--quick", "--method", "johnson", "-o", self.path / "one", "--gate", kept)
         self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertRegex(result.stdout, r"\ngate: \d\d cells compared, none worse than kept or not measured\n$")
         one = json.loads((self.path / "one/atlas.json").read_text())
         self.assertEqual({c["method"] for f in one["families"] for c in f["cells"]}, {"Johnson", "Johnson, float"})
         # Drawn, with rows in words and in colours, whatever the folder's name is and however few columns there are.
@@ -549,6 +560,7 @@ class Program(unittest.TestCase):
         result = run("atlas", "--quick", "--method", "johnson", "-o", folder, "--gate", self.write("better.json", better))
         self.assertEqual(result.returncode, 1)
         self.assertIn("worse than kept", result.stdout)
+        self.assertRegex(result.stdout, r"\ngate: \d\d cells compared, [1-9]\d* worse than kept or not measured\n$")
         self.refused(run("atlas", "--quick", "-o", folder, "--gate", self.scene), "/format")
         for change, place in ({"version": 99}, "/version"), ({"families": 5}, "/families"), ({"families": []}, "/families"), ({"families": [{"name": "K1", "cells": "x"}]}, "/families/0/cells"), ({"families": [7]}, "/families/0"):
             self.refused(run("atlas", "--quick", "-o", folder, "--gate", self.write("odd.json", {**better, **change})), place)

@@ -8,6 +8,7 @@
 
 #include "debugger/render/image_file.h"
 #include "debugger/render/picture.h"
+#include "debugger/render/step_pictures.h"
 #include "debugger/view/hosts.h"
 
 #define STB_IMAGE_IMPLEMENTATION
@@ -115,6 +116,49 @@ TEST(Labels, KeepOffWhatATitleCovers) {
     EXPECT_GE(items.back().points[0].y, covered);
     EXPECT_LT(items.back().points[0].y, covered + 40);
   }
+}
+
+/// The witness points lie near each other: the line that leads to the one must not run through the other's name.
+TEST(Labels, AreNotStruckOutByOthersLines) {
+  Headless host(1280, 800, 1, read_gallery(GJKDBG_GALLERY));
+  App& app = host.app();
+  for (const char* name : {"jolt-671", "pair-sphere-sphere", "box-box-deep", "pair-box-box", "jolt-unit-spheres", "coal-307"}) {
+    app.open_gallery(name);
+    app.session.go_to(app.session.count() - 1);
+    for (const auto& [width, scale] : {std::pair(330.0, 1.0), {490.0, 1.0}, {608.0, 2.0}, {800.0, 2.0}, {945.0, 2.8}, {1100.0, 2.8}}) {
+      app.settings.scale = scale;
+      const Projection projection(fit_world(app.session.meshes(), app.session.recording()), {0, 0, width, 588});
+      const auto items = flatten(world_picture(app.session.meshes(), app.session.recording(), app.session.frame(), app.settings, app.theme.palette, projection), projection, scale);
+      for (const FlatItem& line : items) {
+        const auto leads_to = [&](const std::optional<AnyVector>& witness) {
+          const Projected at = projection(to_view(*witness));
+          return line.kind == FlatItem::Kind::line && line.width == 1 && line.points[1].x == at.x && line.points[1].y == at.y;
+        };
+        const bool a = leads_to(app.session.recording().result.witness_a), b = leads_to(app.session.recording().result.witness_b);
+        if (!a && !b) continue;
+        for (const FlatItem& label : items) {
+          if (label.kind != FlatItem::Kind::label || label.text != (a ? "witness b" : "witness a")) continue;
+          const double x = label.points[0].x, y = label.points[0].y;
+          for (double t = 0; t <= 1; t += 0.02) {
+            const double px = line.points[0].x + t * (line.points[1].x - line.points[0].x), py = line.points[0].y + t * (line.points[1].y - line.points[0].y);
+            EXPECT_FALSE(px > x && px < x + 60 * scale && py > y && py < y + 17 * scale) << name << " at " << width << ": " << label.text;
+          }
+        }
+      }
+    }
+  }
+}
+
+/// The ring on which the only vertex lies is as wide as the view: it was without a name.
+TEST(Labels, NameRingsThatLeaveTheViewToTheRight) {
+  Headless host(1280, 800, 1, read_gallery(GJKDBG_GALLERY));
+  App& app = host.app();
+  app.open_gallery("pair-sphere-sphere");
+  app.session.go_to(2);
+  const Projection projection(fit_difference(app.session.meshes(), app.session.recording()), {0, 0, 325, 475});
+  bool named = false;
+  for (const PictureLabel& label : difference_picture(app.session.meshes(), app.session.recording(), app.session.frame(), app.settings, app.theme.palette, projection).labels) named |= label.text == "at most";
+  EXPECT_TRUE(named);
 }
 
 }  // namespace

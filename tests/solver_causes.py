@@ -32,6 +32,7 @@ CAUSES = [
     ("single precision, not said", "kit", "pair-sphere-sphere", SINGLE, "few-digits", ["run with --scalar float"], []),
     ("single precision, far out", "kit", "far-from-origin", SINGLE, "wrong-closest", ["from the world's origin, where single precision", "not weights that are not clamped"], ["--scalar", "float"]),
     ("the point of one vertex is another", "kit", "box-box-apart", [("closest=v)", "closest=v if len(simplex) > 1 else scaled(0.5, v))")], "wrong-closest", ["One vertex has no weights", "not weights that are not clamped"], []),
+    ("a face test turned, where the whole holds the origin", "muratori", "box-box-deep", [("if dot(n,sub(s[k][0],a))>0: n=neg(n)", "if dot(n,sub(s[k][0],a))<0: n=neg(n)")], "any:wrong-region", ["The whole of it holds the origin: the bodies overlap, and the search is over", "not comes as near as"], []),
     ("towards a vertex only, and wrong", "kit", "box-box-apart", [(SUPPORT, "w = support(scaled(-1, simplex[0].w))")], "direction-not-perpendicular", ["The run goes wrong at step ", "not costs iterations"], []),
     ("a wrong distance, and nothing else", "kit", "box-box-apart", [SILENT, ("tolerance * dot(v, v) or any", "0.5 * dot(v, v) or any")], "wrong-distance", ["report the simplex after every step"], []),
     ("a squared distance, which names itself", "kit", "box-box-apart", [SILENT, ("signed_distance=distance, normal", "signed_distance=distance * distance, normal")], "wrong-distance", ["That is its square", "not report the simplex"], []),
@@ -53,5 +54,9 @@ CAUSES = [
     ("d . w <= 0 where < is due", "muratori", "3d-touch-edge-edge", [("if dot(w[0],d)<0: return False", "if dot(w[0],d)<=0: return False")], "unjustified-separation", ["they touch, which counts as overlapping", "d . w < 0 is due"], []),
     ("EPA goes on at the boundary, and ends", "kit", "2d-deep", [("if height - distance <= max(tolerance * height, rounding) or len(faces) > 600:", "if len(faces) > 9:"), ("if sees(w, f, rounding)]", "if dot(f[1], w.w) > f[2] + rounding] or [next(f for f in faces if f[0] is face)]"), NO_POINTS],
      "no-progress", ["It ended all the same, and with the right answer: here it merely costs", "not never end"], []),
+    ("only the nearest face split", "kit", "box-box-deep", [("seen = [f for f in faces if sees(w, f, rounding)]", "seen = [f for f in faces if f[0] is face]")], "visible-face-kept", ["Only the face chosen was removed: look at all the others, too."], []),
+    ("a polytope that never grows", "kit", "box-box-deep", [("faces = [f for f in faces if f not in seen] + [(f,) + p for f, p in zip(new, planes)]", "pass")], "cycle", ["beyond face ", "so there is more to come", "None was removed", "not Stop when"], []),
+    ("the normal turned, deep", "kit", "box-box-deep", [("signed_distance=-depth, normal=normal", "signed_distance=-depth, normal=scaled(-1, normal)")], "flipped-normal", ["The usual cause is the normal of B - A"], []),
+    ("v for the normal, apart", "kit", "box-box-apart", [("normal=scaled(-1 / distance, v)", "normal=scaled(1 / distance, v)")], "flipped-normal", ["v = a - b leads from body 1 to body 0; the normal is -v / |v|."], []),
     ("EPA's limit, and what follows", "kit", "spheres-concentric", [("or len(faces) > 600", "or len(faces) > 40"), (DEEP, "witness_a=combine([1, depth / 2.2], [middle, normal])")], "stopped-early", ["the face is not on the boundary"], []),
 ]

@@ -37,6 +37,18 @@ RUNS = [
         '{"type":"support","direction":[0.0,0.0,1.0]}',
         '{"type":"result","intersecting":false,"signed_distance":-0.0,"normal":[0.0,0.0,1.0],"witness_a":[0.0,1.0,1.0],"witness_b":[0.0,1.0,1.0]}',
     ], [("unjustified-separation", "warning")], ["they touch"]),
+    ("a corner put at the wrong place in the list, in the plane", "2d-deep", [], [
+        '{"type": "support", "direction": [1, 0]}',
+        '{"type": "support", "direction": [-2.5, 0.25]}',
+        '{"type": "simplex", "vertices": [1, 0], "direction": [-7.0, -21.0]}',
+        '{"type": "support", "direction": [-7.0, -21.0]}',
+        '{"type": "simplex", "vertices": [2, 1, 0]}',
+        '{"type": "polytope", "faces": [[0, 1], [1, 2], [2, 0]]}',
+        '{"type": "face", "vertices": [0, 1], "normal": [0.31622776601683794, 0.9486832980505138], "distance": 0.5533985905294665}',
+        '{"type": "support", "direction": [0.31622776601683794, 0.9486832980505138]}',
+        '{"type": "polytope", "faces": [[0, 1], [1, 2], [2, 3], [3, 0]]}',
+        '{"type": "result", "intersecting": true}',
+    ], [("visible-face-kept", "error"), ...], ["It is the edge that was chosen: in a list of corners the new one belongs between the two ends of that edge"]),
     ("momentum that ends", "box-box-deep", ["--method", "gjk-accelerated"], [
         '{"type":"support","direction":[1.0,0.0,0.0]}',
         '{"type":"simplex","vertices":[0],"closest":[0.5234456490498363,-0.12066456243421242,-0.050000000000000044]}',

@@ -166,6 +166,17 @@ class Solver(unittest.TestCase):
             subprocess.run([PROGRAM, "run", "box-box-deep", "--exec", f"/usr/bin/python3 {KIT}", "--max-supports", "3", "-o", str(recording)], capture_output=True)
             self.assertEqual(json.loads(recording.read_text())["result"]["support_calls"], 3)
 
+    def test_who_is_ended_does_not_complain_of_it(self):
+        """The end of its input would be a Python program's exception, and its traceback what is read first."""
+        endless = "import json\nwhile True:\n    print(json.dumps(dict(type='support', direction=[1, 0, 0])), flush=True)\n    json.loads(input())\n"
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "endless.py")
+            path.write_text(endless)
+            for _ in range(5):
+                result = subprocess.run([PROGRAM, "run", "box-box-deep", "--exec", f"/usr/bin/python3 {path}", "--max-supports", "20"], capture_output=True, text=True)
+                self.assertEqual(result.returncode, 1)
+                self.assertEqual(result.stderr, "")
+
     def test_momentum_is_what_it_is_said_to_be(self):
         """Directions off -v cost steps, of which a plain GJK is warned; not one that says it leads them. A scene's own method says nothing of the program."""
         led = "w = support([-x - (0.1 * y if len(simplex) < 3 and k % 2 == 0 else 0) for k, (x, y) in enumerate(zip(v, reversed(v)))])"
@@ -537,7 +548,7 @@ class Solver(unittest.TestCase):
         def sweep(*arguments):
             return subprocess.run([PROGRAM, "sweep", "--exec", f"/usr/bin/python3 {KIT}", *arguments], capture_output=True, text=True)
         some = sweep("2d-deep", ROOT / "recordings/gallery/box-box-apart.scene.json", "sim-falling-box", "level-mesh", "--dimension", "2")
-        self.assertEqual((some.returncode, some.stdout), (0, "\n1 scenes clean, 0 not\n3 not asked: a program is not asked of bodies that move and of meshes, nor here of other dimensions\n"))
+        self.assertEqual((some.returncode, some.stdout), (0, "\n1 scene clean, 0 not\n3 not asked: a program is not asked of bodies that move and of meshes, nor here of other dimensions\n"))
         self.assertIn("\n3 scenes clean, 0 not\n", sweep("2d-deep", "--random", "2").stdout)
         with tempfile.TemporaryDirectory() as folder:
             # A scene that is wrong is told before the first is asked of, and of two scenes of one name both are kept.
@@ -559,6 +570,7 @@ class Solver(unittest.TestCase):
     def test_a_program_that_is_not_there(self):
         findings = self.run_kit("box-box-deep", "/nonexistent/program 2>/dev/null")
         self.assertEqual([f["code"] for f in findings], ["crash"])
+        self.assertIn("exit status 127 (what a shell says that finds no such program)", findings[0]["message"])
 
 
 unittest.main()

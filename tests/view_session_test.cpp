@@ -2,6 +2,7 @@
 #include <imgui_internal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "debugger/lab/atlas.h"
 #include "debugger/view/explain.h"
 #include "debugger/view/measurements.h"
+#include "debugger/view/right_step.h"
 #include "tests/support/window_fixture.h"
 
 namespace gjkdbg {
@@ -59,6 +61,79 @@ TEST_F(OpenRun, BeginsAtItsFirstFinding) {
   EXPECT_NE(app.notice.find("first finding"), std::string::npos);
   app.open_gallery("box-box-deep");
   EXPECT_EQ(session.step(), 0u);
+}
+
+/// With `view --exec`: the first run, and one after every time the program is saved.
+TEST_F(OpenRun, OfASolverComesAtItsFirstFindingAndLeavesTheRestAsItWas) {
+  const auto wrong_at = [](std::size_t step) {
+    Recording run = solvers_run();
+    run.result.signed_distance = record(run.scene).result.signed_distance;
+    std::get<recorded::SupportQueried>(run.events[step]).w[0] += 0.5;
+    return run;
+  };
+  app.compare_or_throw(app.gallery().file("two-unit-cubes"));
+  app.show_run(wrong_at(5));
+  EXPECT_EQ(session.step(), 5u);
+  EXPECT_EQ(app.notice, "at the first finding; Home is the beginning");
+  EXPECT_TRUE(session.comparing());
+  host.frame();
+  session.breakpoints = {3, 1000}, app.world_camera.radius *= 2;
+  const double zoomed = app.world_camera.radius;
+  app.show_run(wrong_at(7));
+  host.frame();
+  EXPECT_EQ(session.step(), 7u) << "whoever was at the first finding follows it";
+  EXPECT_EQ(app.notice, "run again: at the first finding; Home is the beginning");
+  EXPECT_EQ(session.breakpoints, std::set<std::size_t>{3});
+  EXPECT_EQ(app.world_camera.radius, zoomed);
+  session.go_to(2);
+  app.show_run(wrong_at(5));
+  EXPECT_EQ(session.step(), 2u);
+  EXPECT_EQ(app.notice, "run again: the first finding is at step 5");
+  Recording right = wrong_at(5);
+  right.events = record(right.scene).events;
+  app.show_run(right);
+  EXPECT_TRUE(session.findings().empty());
+  EXPECT_EQ(app.notice, "run again: no findings");
+  EXPECT_TRUE(session.comparing());
+  app.open_gallery("2d-deep");  // a look at another scene; the program is saved
+  app.show_run(wrong_at(5));
+  EXPECT_EQ(session.title(), "box-box-deep");
+  EXPECT_EQ(session.step(), 5u);
+}
+
+/// A run that breaks off says nothing wrong, and has findings all the same: their colour, as of a wrong answer.
+TEST_F(OpenRun, ThatBreaksOffIsNotGrey) {
+  const auto redder = [&](Recording run) {
+    app.show_run(std::move(run));
+    app.drop_note();
+    host.frame(), host.frame();
+    const Image image = host.image();
+    const std::size_t at = 3 * (21 * static_cast<std::size_t>(image.width) + 1258);  // in the chip, right of its text
+    return image.rgb[at] - image.rgb[at + 2];
+  };
+  Recording run = solvers_run();
+  run.result = {};
+  run.events.resize(6);
+  run.events.push_back(recorded::Warning{"support-limit", "More than 2 support queries."});
+  EXPECT_GT(redder(run), 18);
+  Recording right = record(run.scene);
+  right.generator = run.generator;
+  EXPECT_LT(redder(right), 12);
+}
+
+/// Not that |v| is 3e-16, along which to search on.
+TEST_F(OpenRun, IsToldToKeepAllThatHoldsTheOrigin) {
+  Recording run = solvers_run();
+  const auto last = std::find_if(run.events.rbegin(), run.events.rend(), [](const Event& e) { return std::holds_alternative<recorded::SimplexReduced>(e); });
+  ASSERT_NE(last, run.events.rend());
+  auto& reduced = std::get<recorded::SimplexReduced>(*last);
+  ASSERT_EQ(reduced.region.size(), 4u);
+  reduced.region.pop_back();
+  app.show_run(run);
+  session.go_to(static_cast<std::size_t>(run.events.rend() - last) - 1);
+  const std::string said = right_step(session.recording(), session.frame());
+  EXPECT_TRUE(said.starts_with("Keep all of #")) << said;
+  EXPECT_NE(said.find("the origin lies in it, so the bodies overlap. The search is over."), std::string::npos) << said;
 }
 
 TEST_F(OpenRun, SaysWhyPlayingStoppedAndThatBookmarksAreTaken) {

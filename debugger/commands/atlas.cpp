@@ -92,7 +92,7 @@ struct AtlasCommand {
   /// Whether any cell that was kept is worse now, or not there to be compared.
   static bool compare(const Atlas& atlas, const Kept& kept) {
     const auto seriousness = [](Verdict v) { return v == Verdict::not_applicable ? 0 : static_cast<int>(v); };
-    bool worse = false;
+    std::size_t worse = 0;
     for (const auto& [cell, was] : kept) {
       std::optional<Verdict> now;
       for (std::size_t f = 0; f < atlas.families.size(); ++f)
@@ -100,12 +100,13 @@ struct AtlasCommand {
           if (atlas.families[f].name == cell.first && atlas.methods[m].name == cell.second) now = atlas.cells[f][m].verdict;
       const bool given_up_on = now == Verdict::not_applicable && was != Verdict::not_applicable;
       if (now && !given_up_on && seriousness(*now) <= seriousness(was)) continue;
-      worse = true;
+      ++worse;
       std::cout << (now ? "worse than kept: " : "kept, but not measured: ") << cell.first << ", " << cell.second << ": " << word_of(was);
       if (now) std::cout << " -> " << word_of(*now);
       std::cout << "\n";
     }
-    return worse;
+    if (!kept.empty()) std::cout << "gate: " << kept.size() << " cells compared, " << (worse == 0 ? "none" : std::to_string(worse)) << " worse than kept or not measured\n";
+    return worse > 0;
   }
 };
 

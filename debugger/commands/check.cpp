@@ -39,7 +39,7 @@ struct Check {
 void add_check(CLI::App& app, Status& status) {
   auto options = std::make_shared<Check>();
   CLI::App* command = app.add_subcommand("check", "What is wrong with a recording, first wrong step first");
-  command->add_option("RECORDING", options->file, "recording, of any implementation")->required()->check(named());
+  command->add_option("RECORDING", options->file, "recording, of any implementation; - for standard input")->required()->check(named());
   command->add_flag("--json", options->json, "findings as JSON");
   command->callback([options, &status] { status = options->run(); });
 }

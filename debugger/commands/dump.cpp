@@ -33,7 +33,7 @@ struct Dump {
 void add_dump(CLI::App& app, Status& status) {
   auto dump = std::make_shared<Dump>();
   CLI::App* command = app.add_subcommand("dump", "Run a scene and write the recording");
-  command->add_option("SCENE", dump->scene, "scene file, or the name of a gallery scene")->required()->check(named());
+  command->add_option("SCENE", dump->scene, "scene file, or the name of a gallery scene; - for standard input")->required()->check(named());
   command->add_option("-o,--output", dump->output, "file to write; standard output unless given")->check(named());
   dump->flags.add_to(*command);
   command->callback([dump, &status] { status = dump->run(); });

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "algo/solve.h"
+#include "recordings/json_reading.h"
 #include "recordings/replay.h"
 
 namespace gjkdbg {
@@ -36,13 +37,32 @@ fs::path gallery_directory() {
   return GJKDBG_SOURCE_GALLERY;
 }
 
+namespace {
+
+/// The gallery's scene whose name holds the word, the shortest of several; else the one spelt nearly so; or nothing.
+std::string similar_scene(const std::string& word) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  constexpr std::string_view ending = ".scene.json";
+  for (const auto& entry : fs::directory_iterator(gallery_directory(), ignored))
+    if (const std::string file = entry.path().filename().string(); file.ends_with(ending)) names.push_back(file.substr(0, file.size() - ending.size()));
+  std::sort(names.begin(), names.end(), [](const auto& x, const auto& y) { return std::pair(x.size(), x) < std::pair(y.size(), y); });
+  const auto holds = std::find_if(names.begin(), names.end(), [&](const std::string& name) { return word.size() > 2 && name.find(word) != std::string::npos; });
+  return holds != names.end() ? *holds : nearest_name(word, {names.begin(), names.end()}, 4);
+}
+
+}  // namespace
+
 fs::path scene_path(const std::string& argument) {
   std::error_code ignored;
   if (argument == "-") return input_path(argument);
   if (fs::exists(argument, ignored) || argument.find('/') != std::string::npos) return argument;
   const fs::path in_gallery = gallery_directory() / (argument + ".scene.json");
   if (fs::exists(in_gallery, ignored)) return in_gallery;
-  if (argument.find('.') == std::string::npos) throw Error("missing-file", "is neither a file nor a scene of the gallery, which gjkdbg scenes lists", argument);
+  if (argument.find('.') == std::string::npos) {
+    const std::string near = similar_scene(argument);
+    throw Error("missing-file", "is neither a file nor a scene of the gallery, which gjkdbg scenes lists" + (near.empty() ? "" : "; did you mean " + near + "?"), argument);
+  }
   return argument;
 }
 
@@ -72,11 +92,22 @@ CLI::Validator between(double low, double high) {
   return CLI::Validator(check, "in [" + range + "]");
 }
 
+CLI::Validator one_of(std::vector<std::string> names) {
+  std::string all;
+  for (const std::string& name : names) all += (all.empty() ? "" : ",") + name;
+  const auto check = [names = std::move(names), all](std::string& text) {
+    if (std::find(names.begin(), names.end(), text) != names.end()) return std::string();
+    const std::string near = nearest_name(text, {names.begin(), names.end()});
+    return "must be one of " + all + ", not " + text + (near.empty() ? "" : "; did you mean " + near + "?");
+  };
+  return CLI::Validator(check, "{" + all + "}");
+}
+
 namespace {
 
 template <class Names>
-std::vector<std::string> list(const Names& names) {
-  return {names.begin(), names.end()};
+CLI::Validator named_in(const Names& names) {
+  return one_of({names.begin(), names.end()});
 }
 
 template <class Enum, class Names>
@@ -88,13 +119,13 @@ void override_name(std::optional<Enum>& setting, const std::optional<std::string
 
 void MethodFlags::add_to(CLI::App& app) {
   const auto group = "Method (overrides the scene's)";
-  app.add_option("--name,--method", name_, "algorithm; fastest: whichever the charts show for these bodies")->check(CLI::IsMember(list(method_names)))->group(group);
-  app.add_option("--closest_point,--closest-point", closest_point_, "GJK's closest-point sub-algorithm")->check(CLI::IsMember(list(closest_point_names)))->group(group);
-  app.add_option("--penetration", penetration_, "what runs when the cores overlap")->check(CLI::IsMember(list(penetration_names)))->group(group);
-  app.add_option("--scalar", scalar_, "arithmetic")->check(CLI::IsMember(list(scalar_names)))->group(group);
-  app.add_option("--stopping", stopping_, "GJK's stopping rule")->check(CLI::IsMember(list(stopping_names)))->group(group);
-  app.add_option("--acceleration", acceleration_, "directions of gjk-accelerated")->check(CLI::IsMember(list(acceleration_names)))->group(group);
-  app.add_option("--start", start_, "where GJK begins")->check(CLI::IsMember(list(start_names)))->group(group);
+  app.add_option("--name,--method", name_, "algorithm; fastest: whichever the charts show for these bodies")->check(named_in(method_names))->group(group);
+  app.add_option("--closest_point,--closest-point", closest_point_, "GJK's closest-point sub-algorithm")->check(named_in(closest_point_names))->group(group);
+  app.add_option("--penetration", penetration_, "what runs when the cores overlap")->check(named_in(penetration_names))->group(group);
+  app.add_option("--scalar", scalar_, "arithmetic")->check(named_in(scalar_names))->group(group);
+  app.add_option("--stopping", stopping_, "GJK's stopping rule")->check(named_in(stopping_names))->group(group);
+  app.add_option("--acceleration", acceleration_, "directions of gjk-accelerated")->check(named_in(acceleration_names))->group(group);
+  app.add_option("--start", start_, "where GJK begins")->check(named_in(start_names))->group(group);
   app.add_option("--start_from,--start-from", start_from_, "recording with whose last simplex GJK begins")->check(named())->group(group);
   app.add_option("--tolerance", tolerance_, "relative gap of the bounds at which to stop; greater than 0 and less than 1")->check(between(0, 1))->group(group);
   app.add_option("--max_iterations,--max-iterations", max_iterations_, "of each phase (512)")->check(between(1, 1000000))->group(group);

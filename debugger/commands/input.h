@@ -34,6 +34,8 @@ std::string input_path(const std::string& argument);
 
 /// Of options that name a file, a folder or a program: not empty.
 CLI::Validator named();
+/// Of options that choose by name.
+CLI::Validator one_of(std::vector<std::string> names);
 /// Of options that are a number: from `low` to `high`, and no NaN.
 CLI::Validator between(double low, double high);
 

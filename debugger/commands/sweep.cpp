@@ -139,9 +139,10 @@ struct Sweep {
     for (const SceneFile& scene : chosen()) one(scene);
     RandomPairs pairs(seed, dimension);
     for (int i = 0; i < random.value_or(scenes.empty() ? 100 : 0); ++i) one(pairs.next(i));
-    std::cout << "\n" << passed << " scenes clean, " << failed << " not\n";
+    std::cout << "\n" << passed << (passed == 1 ? " scene clean, " : " scenes clean, ") << failed << " not\n";
     if (!scenes.empty() && not_asked > 0) std::cout << not_asked << " not asked: a program is not asked of bodies that move and of meshes" << (dimension > 0 ? ", nor here of other dimensions" : "") << "\n";
     for (const auto& [code, count] : codes) std::cout << "  " << std::setw(30) << code << " " << count << "\n";
+    if (failed > 0) std::cout << "What each means, with the numbers: gjkdbg run SCENE --exec ...\n";
     return failed > 0 ? exit_difference : exit_done;
   }
 
@@ -263,8 +264,8 @@ void add_sweep(CLI::App& app, Status& status) {
   command->add_option("--dimension", options->dimension, "only scenes of this dimension")->check(between(1, 3));
   command->add_option("--seed", options->seed, "of the random scenes (1)")->check(between(0, 4294967295.0));
   command->add_option("-o,--output", options->output, "folder for the scenes that fail, shrunk")->check(named());
-  command->add_option("--method", options->by, "gjk-accelerated: the program leads its directions by momentum (gjk)")->check(CLI::IsMember({"gjk", "gjk-accelerated"}));
-  command->add_option("--scalar", options->scalar, "float: the program counts in single precision (as the scene says)")->check(CLI::IsMember({"double", "float"}));
+  command->add_option("--method", options->by, "gjk-accelerated: the program leads its directions by momentum (gjk)")->check(one_of({"gjk", "gjk-accelerated"}));
+  command->add_option("--scalar", options->scalar, "float: the program counts in single precision (as the scene says)")->check(one_of({"double", "float"}));
   command->add_option("--max-supports,--max_supports", options->limits.max_supports, "support queries a scene (1000)")->check(between(1, 10000000));
   command->add_option("--timeout", options->limits.timeout, "seconds a scene (10)")->check(between(0.01, 86400.0));
   command->callback([options, &status] { status = options->run(); });

@@ -58,15 +58,15 @@ int run_diff(const std::string& a, const std::string& b) {
 void add_verify(CLI::App& app, Status& status) {
   auto files = std::make_shared<std::vector<std::string>>();
   CLI::App* command = app.add_subcommand("verify", "Run recordings again; name the first event that differs");
-  command->add_option("RECORDING", *files, "recordings")->required()->check(named());
+  command->add_option("RECORDING", *files, "recordings; - for standard input")->required()->check(named());
   command->callback([files, &status] { status = run_verify(*files); });
 }
 
 void add_diff(CLI::App& app, Status& status) {
   auto files = std::make_shared<std::pair<std::string, std::string>>();
   CLI::App* command = app.add_subcommand("diff", "The first event where two recordings part, and both sides of it");
-  command->add_option("A", files->first, "recording")->required()->check(named());
-  command->add_option("B", files->second, "recording")->required()->check(named());
+  command->add_option("A", files->first, "recording; - for standard input")->required()->check(named());
+  command->add_option("B", files->second, "recording; - for standard input")->required()->check(named());
   command->callback([files, &status] { status = run_diff(files->first, files->second); });
 }
 

@@ -231,13 +231,25 @@ class DifferencePainter : public Painter {
     }
   }
 
+  /// Where a ring round the origin can be named: on a diagonal, the first that has room for a word in the view.
+  std::optional<ViewPoint> place_on_ring(double radius) const {
+    const ViewRectangle& view = projection_.rectangle();
+    const double room = 60 * settings_.scale, line = 20 * settings_.scale;  // a title lies at the top
+    for (const auto& [x, y] : {std::pair(1, -1), {-1, -1}, {1, 1}, {-1, 1}}) {
+      const ViewPoint at = (x * projection_.right() + y * projection_.up()) * (radius * M_SQRT1_2);
+      const Projected p = projection_(at);
+      if (p.x > view.x + room && p.x < view.x + view.width - room && p.y > view.y + room && p.y < view.y + view.height - line) return at;
+    }
+    return std::nullopt;
+  }
+
   /// The surface of A - B is nowhere nearer than the one ring and somewhere no farther than the other.
   void bound_rings() {
     if (!settings_.bounds || meshes_.dimension == 1) return;
     const auto ring_at = [&](double bound, const char* name, Colour colour) {
       const double r = std::abs(bound + meshes_.radius);
       if (!std::isfinite(r) || !(r > 1e-3 * unit()) || r > 50 * unit()) return;
-      if (r > 0.15 * unit() && r < 0.8 * unit()) small_label((projection_.right() - projection_.up()) * (r * M_SQRT1_2), name, palette_.text_faint, true);
+      if (const auto at = place_on_ring(r); at && *name && r > 0.15 * unit()) small_label(*at, name, palette_.text_faint, true);
       if (flat()) ring(r, ViewPoint::UnitX(), ViewPoint::UnitY(), colour);
       else ring(r, projection_.right(), projection_.up(), colour);
     };

@@ -44,6 +44,9 @@ double length_inside(const LabelBox& box, const Projected& p, const Projected& q
   return between(p.x, dx, box.x, box.x + box.w) && between(p.y, dy, box.y, box.y + box.h) ? (to - from) * std::hypot(dx, dy) : 0;
 }
 
+/// The place in a box from which a line leads to a point.
+Projected towards(const LabelBox& box, const Projected& p) { return {std::clamp(p.x, box.x, box.x + box.w), std::clamp(p.y, box.y, box.y + box.h), p.depth}; }
+
 double distance(const LabelBox& box, const Projected& p) { return std::hypot(std::max({box.x - p.x, 0.0, p.x - box.x - box.w}), std::max({box.y - p.y, 0.0, p.y - box.y - box.h})); }
 
 /// Finds every label the place around its point, inside the view, where it hides least of other labels, points and strong lines; the first of equals.
@@ -54,6 +57,8 @@ class LabelPlaces {
 
   std::vector<std::optional<LabelBox>> take(const std::vector<std::pair<Projected, const PictureLabel*>>& labels) {
     taken_.assign(labels.size(), std::nullopt);
+    points_.clear();
+    for (const auto& label : labels) points_.push_back(label.first);
     constexpr int rounds = 3;
     for (int round = 0; round < rounds; ++round)
       for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -70,7 +75,7 @@ class LabelPlaces {
     std::optional<LabelBox> best;
     double least = std::numeric_limits<double>::infinity();
     for (const LabelBox& box : places_around(at, label))
-      if (const double bad = hides(box) + (label.spare ? distance(box, at) / scale_ : misleads(box, at)); bad < least) least = bad, best = box;
+      if (const double bad = hides(box) + crosses(box, at) + (label.spare ? distance(box, at) / scale_ : misleads(box, at)); bad < least) least = bad, best = box;
     if (label.spare && best && hides(*best) > 25 * scale_) return std::nullopt;
     return best;
   }
@@ -105,6 +110,14 @@ class LabelPlaces {
     return sum;
   }
 
+  /// A line that leads from a label to its point strikes out the label that it runs through.
+  double crosses(const LabelBox& box, const Projected& at) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < taken_.size(); ++i)
+      if (taken_[i]) sum += length_inside(*taken_[i], towards(box, at), at) > 0 || length_inside(box, towards(*taken_[i], points_[i]), points_[i]) > 0 ? 60 : 0;
+    return sum;
+  }
+
   /// What stands nearer to another point than to its own is taken for that one's; and far off for nobody's.
   double misleads(const LabelBox& box, const Projected& at) const {
     const double own = distance(box, at);
@@ -120,6 +133,7 @@ class LabelPlaces {
   const ViewRectangle& view_;
   const double scale_;
   std::vector<std::optional<LabelBox>> taken_;
+  std::vector<Projected> points_;  ///< of the labels
 };
 
 FlatItem flat_point(const PicturePoint& point, const Projection& project) {
@@ -140,10 +154,9 @@ std::optional<FlatItem> leader(const LabelBox& box, const Projected& at, const P
     has_dot |= is_own, nearer_dot |= !is_own && distance(box, item.points[0]) < own;
   }
   if ((!has_dot && !label.area) || own < (nearer_dot ? 10 : 22) * scale) return std::nullopt;
-  const Projected near{std::clamp(at.x, box.x, box.x + box.w), std::clamp(at.y, box.y, box.y + box.h), at.depth};
   FlatItem line;
   line.kind = FlatItem::Kind::line;
-  line.points = {near, at};
+  line.points = {towards(box, at), at};
   line.colour = label.colour.with_alpha(0.9), line.width = 1;
   return line;
 }

@@ -87,14 +87,14 @@ SolverProcess::SolverProcess(const std::string& command, int errors) {
   fcntl(from_, F_SETFL, O_NONBLOCK);
 }
 
+/// Whoever still runs is ended before its input is closed: it would read the end of it, and its complaint would stand before the findings.
 SolverProcess::~SolverProcess() {
+  if (pid_ > 0) kill(-pid_, SIGKILL);
   close_input();
   if (from_ >= 0) close(from_);
   no_longer_interruptible();
-  if (pid_ <= 0) return;
-  kill(-pid_, SIGKILL);
   int status = 0;
-  waitpid(pid_, &status, 0);
+  if (pid_ > 0) waitpid(pid_, &status, 0);
 }
 
 void SolverProcess::close_input() {
@@ -152,6 +152,7 @@ std::optional<std::string> SolverProcess::wait(Deadline deadline) {
       kill(-pid_, SIGKILL);  // what it may have left running
       pid_ = -1;
       if (WIFSIGNALED(status)) return "signal " + std::to_string(WTERMSIG(status)) + " (" + strsignal(WTERMSIG(status)) + ")";
+      if (WEXITSTATUS(status) == 127) return "exit status 127 (what a shell says that finds no such program)";
       return WEXITSTATUS(status) == 0 ? "" : "exit status " + std::to_string(WEXITSTATUS(status));
     }
     if (done < 0 || expired(deadline)) return std::nullopt;

@@ -5,6 +5,9 @@
 
 #include "debugger/view/explain.h"
 #include "debugger/view/input.h"
+#include "recordings/json_writing.h"
+
+#include <nlohmann/json.hpp>
 
 namespace gjkdbg {
 
@@ -36,6 +39,36 @@ void App::open_or_throw(const std::filesystem::path& file) {
   if (session.findings().empty()) return;
   session.go_to(session.findings().front().step);  // what is looked for
   note("at the first finding; Home is the beginning");
+}
+
+namespace {
+
+bool same_bodies(SceneFile x, SceneFile y) {
+  x.method = y.method = {};
+  return scene_to_json(x) == scene_to_json(y);
+}
+
+}  // namespace
+
+void App::show_run(Recording run) {
+  const auto at_first_finding = [&] { return !session.findings().empty() && session.step() == session.findings().front().step; };
+  const bool again = foreign(session.recording()), follows = !again || at_first_finding();
+  if (same_bodies(session.scene(), run.scene)) {
+    session.open_again(std::move(run));
+  } else {
+    const std::string name = run.scene.scene.name;
+    session.open(std::move(run), name.empty() ? "your solver's run" : name);
+    show_lab = false;
+  }
+  settings.selected.reset();
+  message.clear();
+  if (session.findings().empty()) {
+    if (again) note("run again: no findings");
+    return;
+  }
+  if (follows) session.go_to(session.findings().front().step);
+  note(at_first_finding() ? std::string(again ? "run again: " : "") + "at the first finding; Home is the beginning"
+                          : "run again: the first finding is at step " + std::to_string(session.findings().front().step));
 }
 
 void App::open_gallery(const std::string& name) { open(gallery_.file(name)); }
@@ -236,11 +269,11 @@ void App::title_and_chips(const Area& area) {
   const auto& findings = session.findings();
   const auto errors = std::count_if(findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Finding::Severity::error; });
   const bool open = unanswered(session.recording().result), wrong = !open && std::any_of(findings.begin(), findings.end(), about_the_answer);
-  const bool neutral = !wrong && (simulated || open);
+  const bool found_wrong = wrong || errors > 0, neutral = simulated || open;  // findings have one colour everywhere
   const std::string found = wrong || errors == 0 ? "" : errors == 1 ? "  \xC2\xB7  1 finding" : "  \xC2\xB7  " + std::to_string(errors) + " findings";
   const std::string whole_result = (wrong ? "wrong: " : "") + result_text(session.recording()) + found, name = session.title() + (session.can_undo() ? " (edited)" : "");
   std::string result = whole_result;
-  const Colour tone = neutral ? theme.palette.text_soft : wrong ? theme.palette.newest : session.recording().result.intersecting ? theme.palette.chosen : theme.palette.support;
+  const Colour tone = found_wrong ? theme.palette.newest : neutral ? theme.palette.text_soft : session.recording().result.intersecting ? theme.palette.chosen : theme.palette.support;
   const std::string whole = method_text(session.recording()), short_name = foreign(session.recording()) ? "yours" : std::string(word_of(session.recording().settings.name));
   std::string method = whole + "  \xC2\xB7  " + std::string(word_of(session.scene().scene.query));
   const auto width = [&](const std::string& text) { return theme.small->CalcTextSizeA(theme.small->FontSize, 1e6f, 0, text.c_str()).x + theme.px(22); };

@@ -53,6 +53,9 @@ class App {
   /// The same as `open`: a scene, a recording, a chart.json or an atlas.json; throws Error.
   void open_or_throw(const std::filesystem::path& file);
   void open_gallery(const std::string& name);
+  /// A solver's run, at its first finding. Where the same scene is open, cameras, breakpoints and what stands beside it stay; whoever looks at another step
+  /// of the run before stays there.
+  void show_run(Recording run);
   /// The gallery's next scene (1) or the one before (-1), through all lessons; of a scene that is not there its first or last.
   void open_beside(int step);
   /// Another recording beside this one: told by its method where it is of the same scene. Throws Error.

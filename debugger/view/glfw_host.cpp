@@ -84,15 +84,9 @@ void open_dropped(GLFWwindow* window, int count, const char** files) {
   if (count > 0) static_cast<App*>(glfwGetWindowUserPointer(window))->drop({files, files + count});
 }
 
-/// Shows a solver's new run at the step where the old one was.
 void refresh(App& app, const WindowOptions& options) {
   std::string message;
-  if (auto recording = options.refresh(message)) {
-    const std::size_t step = app.session.is_open() ? app.session.step() : 0;
-    const std::string title = app.session.title();
-    app.session.open(std::move(*recording), title);
-    app.session.go_to(step);
-  }
+  if (auto recording = options.refresh(message)) app.show_run(std::move(*recording));
   if (!message.empty()) app.message = message;
 }
 

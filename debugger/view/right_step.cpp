@@ -1,5 +1,7 @@
 #include "debugger/view/right_step.h"
 
+#include <algorithm>
+
 #include "debugger/view/explain.h"
 #include "recordings/check_context.h"
 
@@ -22,6 +24,14 @@ struct RightStep {
     return nearest_point(points);
   }
 
+  /// But for rounding; a simplex of as many vertices as there can be is nearest only where the origin is within.
+  bool holds_the_origin(const NearestPoint& best, const std::vector<int>& of) const {
+    if (static_cast<int>(best.subset.size()) == recording.scene.scene.dimension + 1) return true;
+    double farthest = 0;
+    for (const int n : of) farthest = std::max(farthest, frame.vertices.at(n).w.norm());
+    return best.v.norm() <= 1e-15 * farthest;
+  }
+
   std::string operator()(const recorded::SupportQueried& e) const {
     if (e.phase != Phase::gjk || frame.simplex.size() < 2) return {};
     const auto best = nearest({frame.simplex.begin() + 1, frame.simplex.end()});
@@ -34,11 +44,13 @@ struct RightStep {
     had.insert(had.end(), frame.dropped.begin(), frame.dropped.end());
     const auto best = nearest(had);
     if (!best) return {};
-    std::string kept;
-    for (const int i : best->subset) kept += " #" + std::to_string(had[static_cast<std::size_t>(i)]);
-    if (best->v.norm() == 0) return "Keep" + kept + ": the origin lies in it, so the bodies overlap.";
-    const std::string same = best->subset.size() == e.region.size() ? "Keep" : "Keep only";
-    return same + kept + ": |v| = " + short_number(best->v.norm()) + ", v = " + short_vector(best->v) + ". Then search along -v.";
+    std::vector<int> right;
+    for (const int i : best->subset) right.push_back(had[static_cast<std::size_t>(i)]);
+    std::sort(right.rbegin(), right.rend());  // newest first
+    std::string kept = right.size() == had.size() ? "Keep all of" : right.size() == e.region.size() ? "Keep" : "Keep only";
+    for (const int v : right) kept += " #" + std::to_string(v);
+    if (holds_the_origin(*best, had)) return kept + ": the origin lies in it, so the bodies overlap. The search is over.";
+    return kept + ": |v| = " + short_number(best->v.norm()) + ", v = " + short_vector(best->v) + ". Then search along -v.";
   }
 
   std::string operator()(const recorded::FaceChosen&) const {

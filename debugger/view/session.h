@@ -73,6 +73,8 @@ class Session {
   bool add_bookmark();  ///< false: all nine are taken
 
   // --- Comparing: another run beside this one, at the same step ------------------------------------------------------
+  /// A new run of the scene that is open, at the event that corresponds: what it is compared with stays, and breakpoints do. Throws Error.
+  void open_again(Recording recording);
   /// The same scene by another method, solved again with every edit. The message of what is wrong; empty when it is shown.
   std::string compare_with(const Method& method, std::string title);
   /// Another recording, as it is.

@@ -49,6 +49,8 @@ SharedSupports shared_supports_of(const Recording& a, const Recording& b) {
 }  // namespace
 
 void Session::find_parting() {
+  parting_.reset();
+  unlike_ = false, alike_but_ = "", shared_supports_ = {};
   const std::optional<Difference> any = first_difference(recording_, other_);
   if (!any) return;
   unlike_ = any->event == 0 && recording_.events[0].index() != other_.events[0].index();
@@ -65,6 +67,19 @@ void Session::stop_comparing() {
   other_method_.reset();
   parting_.reset();
   unlike_ = false, alike_but_ = "", shared_supports_ = {};
+}
+
+void Session::open_again(Recording recording) {
+  if (recording.events.empty()) throw Error("no-events", "holds no events", "/events");
+  std::vector<Finding> findings = check(recording);
+  take(std::move(recording));
+  findings_ = std::move(findings);
+  undo_.clear(), redo_.clear();
+  playing = false;
+  std::erase_if(breakpoints, [&](std::size_t at) { return at >= count(); });
+  std::erase_if(bookmarks, [&](const auto& mark) { return mark.second >= count(); });
+  if (std::max(loop_from.value_or(0), loop_to.value_or(0)) >= count()) loop_from.reset(), loop_to.reset();
+  if (comparing() && !other_method_) find_parting();
 }
 
 void Session::swap_compared(std::string title) {
