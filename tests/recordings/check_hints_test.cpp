@@ -132,7 +132,7 @@ TEST(CheckHints, YesOrNoWhereRoundBodiesTouch) {
     Recording recording = record(parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 2, "query": "intersect", "bodies": [{"shape": {"type": "ellipse", "radii": [2, 1]}}, {"shape": {"type": "circle", "radius": 0.5}, "pose": {"position": [0, 0]}}]})", {}));
     recording.scene.scene.bodies[1].pose.position[0] = 2.5 + gap;
     recording.settings.scalar = scalar;
-    recording.events.clear(), recording.result = {}, recording.result.status = own ? "separated" : "converged", recording.result.intersecting = false;
+    recording.events.clear(), recording.result = {}, recording.result.status = GjkStatus::separated, recording.result.intersecting = false;
     if (!own) recording.generator = "another";
     const AnyVector d = Eigen::Vector2d(1, 0), a = Eigen::Vector2d(2, 0), b = Eigen::Vector2d(2.5 + gap, 0);
     recording.events.push_back(recorded::GjkBegan{d});
