@@ -170,12 +170,14 @@ void project(const EllipsoidCore<D, S>& core, const Vector<D, S>& p, ProjectionS
     for (int i = 0; i < D; ++i) inverse[i] = 1 / (squared[i] + t);
     evaluate();
     const S step = (std::sqrt(f) - 1) * f / slope;
-    if (std::abs(f - 1) < S(1e-5) && std::abs(step) < S(1e-3) * (least + t)) {  // the last step squares that: no need to divide again
-      t += step;
-      for (int i = 0; i < D; ++i) inverse[i] -= step * inverse[i] * inverse[i] * (1 - step * inverse[i]);
-      break;
+    if (std::abs(f - 1) < S(1e-5)) {
+      if (std::abs(step) < S(1e-4) * (least + t)) [[likely]] {  // the last step squares that: no need to divide again
+        t += step;
+        for (int i = 0; i < D; ++i) inverse[i] -= step * inverse[i] * inverse[i] * (1 - step * inverse[i]);
+        break;
+      }
+      if (std::abs(f - 1) <= 8 * std::numeric_limits<S>::epsilon()) break;  // which is what f rounds
     }
-    if (std::abs(f - 1) <= 8 * std::numeric_limits<S>::epsilon()) break;  // which is what f rounds
     t = t + step > 0 ? t + step : t / 8;
   }
   evaluate();

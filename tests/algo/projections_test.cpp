@@ -91,7 +91,7 @@ TEST(Projections, FindThePointOfANeedleThatIsNextToThem) {
       project(core, Vector<3, double>(point + std::pow(10, exponent(random)) * out), start, found);
       worst = std::max(worst, (found.point - point).norm());
     }
-    EXPECT_LT(worst, 2e-8 * radii.maxCoeff()) << radii.transpose();
+    EXPECT_LT(worst, 2e-9 * radii.maxCoeff()) << radii.transpose();
   }
 }
 
