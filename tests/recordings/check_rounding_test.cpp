@@ -78,6 +78,17 @@ TEST(CheckRounding, ThePlaneOfASliverIsTurned) {
   }
 }
 
+/// In single precision, 1.5e-7 deep: the points that are projected are no better known, and either answer is right.
+TEST(CheckRounding, RoundBodiesThatTouchByTheirProjections) {
+  Recording recording = run_of(R"({"format": "gjk-scene", "version": 1, "dimension": 2, "query": "intersect", "method": {"name": "projections", "scalar": "float"}, "bodies": [
+    {"shape": {"type": "capsule", "radius": 0.00046424271117729193, "half_height": 5.2724635508622335e-05, "axis": "x"},
+     "pose": {"position": [-0.5801655648699204, -0.3261080873669525], "rotation": {"matrix": [[0.5711671944060898, -0.82083374445394], [0.82083374445394, 0.5711671944060898]]}}},
+    {"shape": {"type": "capsule", "radius": 1.8264841725251896e-06, "half_height": 0.7018809017175992, "axis": "x"},
+     "pose": {"position": [0.02092824460921542, -0.4342494651225123], "rotation": {"matrix": [[0.9843477861722153, 0.1762368742853171], [-0.1762368742853171, 0.9843477861722153]]}}}]})");
+  EXPECT_FALSE(recording.result.intersecting);
+  EXPECT_EQ(said_of(recording), "");
+}
+
 TEST(CheckRounding, PointsProjectedFarOut) { EXPECT_EQ(said_of(run_of(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "penetration", "bodies": [
     {"shape": {"type": "box", "half_extents": [0.5, 0.3, 0.501]}, "pose": {"rotation": {"quaternion": [-0.6889933311254824, -0.47884165749354113, 0.5000064661230332, -0.2144583655365433]}, "position": [430.68490967361674, -33788.113854130985, -403.5327212806239]}},
     {"shape": {"type": "box", "half_extents": [1.0, 1.35, 0.6]}, "pose": {"rotation": {"quaternion": [-0.6889933311254824, -0.47884165749354113, 0.5000064661230332, -0.2144583655365433]}, "position": [431.26967683797, -33787.89630770814, -402.07775989462294]}}], "method": {"name": "projections", "closest_point": "johnson", "start": "given", "initial_direction": [0.0535273505876905, -0.6685792426433382, -0.5680074246351977]}})")), ""); }
