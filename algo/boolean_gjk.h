@@ -67,6 +67,7 @@ class BooleanGjk {
   /// float and 2^64 in double (working_scale.h) these squares are finite, and not zero, for a d between this and one over it: (2^16 1e10)^2 = 4e29, (2^64 1e60)^2 = 3e158.
   static constexpr S long_one = std::is_same_v<S, float> ? S(1e10) : S(1e60);
   static constexpr S leans = S(1e-3);  ///< what is left of long vectors, below which rounding turns it by more than a thousand of its units
+  static constexpr S leans_on_edge = S(1.0 / 32);  ///< the same of two vertices, where to look again costs less
 
   /// Part of the simplex, and the direction from it towards the origin. Indices into points_: 0 is A, the newest.
   struct Region {
@@ -117,14 +118,15 @@ class BooleanGjk {
   static V across(const V& ab, const V& x) { return x * ab.dot(ab) - ab * ab.dot(x); }
 
   /// Towards the origin, across the edge. Next to the line that is the difference of two long vectors, rounded: nothing at all where the origin lies on
-  /// it, and beside it a direction that leans along AB, by which A itself may seem to pass the origin. So once more across.
+  /// it, and beside it a direction that leans along AB, by which A or B itself may seem to pass the origin. So once more across: what is left, a share s of the long ones, leans by
+  /// 4 u / s, and the far end of the edge rises by that times its length, 128 u of it where s is 1 / 32.
   Region line(int a, int b) const {
     const V ab = w(b) - w(a);
     Region region{2, {a, b, 0}, across(ab, -w(a))};
     V& d = region.direction;
     const S long_ones = ab.dot(ab) * w(a).norm(), left = d.norm();
     if (left <= 8 * std::numeric_limits<S>::epsilon() * long_ones) d.setZero();
-    else if (left <= leans * long_ones) d = across(ab, d);
+    else if (left <= leans_on_edge * long_ones) d = across(ab, d);
     return region;
   }
 

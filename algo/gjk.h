@@ -249,7 +249,7 @@ class Gjk {
   [[gnu::always_inline]] bool proven(const Point& point) {
     if (options_.goal == GjkGoal::intersect && lower_bound_ > difference_.radius()) return end_as(GjkStatus::separated);
     const S gap = distance_ - plane_;
-    const bool met = gap <= options_.tolerance * distance_ + floor_ && (gap <= Options::decisive * distance_ + floor_ || !straddles());
+    const bool met = gap <= options_.tolerance * distance_ + floor_ && (!straddles() || gap <= decisive() * distance_ + floor_);
     if (options_.stopping != Stopping::bounds) {
       if (rule_met(point.w)) return end_as(met ? GjkStatus::converged : GjkStatus::rule_met);
     } else if (met) {
@@ -263,6 +263,9 @@ class Gjk {
     const S radius = difference_.radius();
     return radius > 0 && lower_bound_ <= radius && distance_ + floor_ > radius;
   }
+
+  /// The gap that then is none. Of a yes or no nothing but rounding is: what could be decided in this precision is the answer.
+  [[gnu::always_inline]] S decisive() const { return options_.goal == GjkGoal::intersect ? S(0) : Options::decisive; }
 
   /// Other libraries' rules, as their sources have them (see Stopping); v.w and |v|^2 are not yet those of the next simplex.
   [[gnu::always_inline]] bool rule_met(const V& w) {

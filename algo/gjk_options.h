@@ -19,7 +19,8 @@ enum class GjkGoal {
 template <int D, class S>
 struct GjkOptions {
   GjkGoal goal = GjkGoal::signed_distance;
-  static constexpr S decisive = std::is_same_v<S, double> ? S(1e-10) : S(1e-4);  ///< the gap at which bodies that may or may not touch are told apart, however coarse `tolerance` is
+  /// Where a distance is asked for: the gap of the bounds, as a share of it, at which bodies that may or may not touch are told apart, however coarse `tolerance` is.
+  static constexpr S decisive = std::is_same_v<S, double> ? S(1e-10) : S(1e-4);
   S tolerance = S(1e-12);  ///< relative gap of the bounds at which the loop ends
   int max_iterations = 512;
   Vector<D, S> direction = Vector<D, S>::Unit(0);  ///< first search direction, not zero

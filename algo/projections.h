@@ -88,7 +88,8 @@ class Projections {
         const S height = plane(upright, upright.norm());
         lower_ = std::max(lower_, height - floor_);
         set_normal(v, distance, upright);
-        if (distance - height <= tolerance_ * distance + floor_ || lower_ > enough) return ProjectionsStatus::separated;
+        const S share = yes_or_no ? S(0) : tolerance_;  // a yes or no that is open between these bounds is not decided by the nearer of them
+        if (distance - height <= share * distance + floor_ || lower_ > enough) return ProjectionsStatus::separated;
         if (moved <= floor_ * floor_) return ProjectionsStatus::undecided;
       }
       step(g);

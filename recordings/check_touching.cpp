@@ -91,10 +91,16 @@ struct Nearly {
       }
     return w;
   }
-  /// Of round bodies: whether the last simplex is as far from the origin as their radii reach, to what v is known to. Either answer is right then.
+  /// Of round bodies: whether the last simplex, or in a recording of our own the points that were projected last, are as far from the origin, or from each other, as the radii
+  /// reach, to what v is known to. Either answer is right then.
   bool radii_reach() const {
-    const std::vector<AnyVector> w = last_simplex();
-    return c.radius > 0 && !w.empty() && std::abs(nearest_point(w).v.norm() - c.radius) <= known_to();
+    if (!(c.radius > 0)) return false;
+    const auto reaches = [&](const AnyVector& v) { return std::abs(v.norm() - c.radius) <= known_to(); };
+    if (const std::vector<AnyVector> w = last_simplex(); !w.empty()) return reaches(nearest_point(w).v);
+    const recorded::PointsProjected* last = nullptr;
+    for (const Event& event : c.recording.events)
+      if (const auto* e = std::get_if<recorded::PointsProjected>(&event)) last = e;
+    return last && !foreign(c.recording) && reaches(last->closest);
   }
 
   /// How far the last simplex that was told is from the origin; 0 where none was, and where it is farther than what may be taken for touching. One that holds the origin to rounding has

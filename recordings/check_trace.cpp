@@ -168,13 +168,20 @@ void TraceCheck::judge(const recorded::SimplexReduced& e) {
   nearest(e.closest, e.upper_bound);
 }
 
-/// A plane with a unit normal, as far from the origin as the vertices named.
+/// A plane with a unit normal, as far from the origin as the vertices named. That of a sliver is turned by rounding: its normal is a product of two edges, off by some u of both
+/// lengths, and so is the height of what lies far from the corner that the distance was measured at.
 void TraceCheck::plane(const std::vector<int>& vertices, const AnyVector& normal, double distance) {
+  std::vector<std::pair<int, AnyVector>> known;
   for (const int v : vertices)
-    if (const AnyVector* w = c_.vertex(v); w && std::abs(normal.dot(*w) - distance) > std::max(c_.tolerance, 1e-7 * c_.size)) {
-      c_.find("wrong-face", "Along " + text_of(normal) + " vertex " + std::to_string(v) + " lies at " + text_of(normal.dot(*w)) + ", but the distance is given as " + text_of(distance) + ".");
-      return;
-    }
+    if (const AnyVector* w = c_.vertex(v)) known.emplace_back(v, *w);
+  for (const auto& [number, w] : known) {
+    const double height = normal.dot(w), off = std::abs(height - distance);
+    if (!(off > std::max(c_.tolerance, 1e-7 * c_.size))) continue;
+    std::vector<AnyVector> corners;
+    for (const auto& vertex : known) corners.push_back(vertex.second);
+    c_.find_unless(off <= c_.rounding_of(corners), "wrong-face", "Along " + text_of(normal) + " vertex " + std::to_string(number) + " lies at " + text_of(height) + ", but the distance is given as " + text_of(distance) + ".");
+    return;
+  }
 }
 
 void TraceCheck::judge(const recorded::GjkEnded& e) {

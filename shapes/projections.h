@@ -10,6 +10,8 @@
 //
 // The point of an ellipsoid: x_i = r_i^2 p_i / (r_i^2 + t) with f(t) = sum of (r_i p_i / (r_i^2 + t))^2 = 1, t > 0. Newton's method on 1 / sqrt(f) = 1, which
 // is nearly linear (Moré, Sorensen, "Computing a trust region step", SIAM J. Sci. Stat. Comput. 4(3), 1983); exact in one step for a ball.
+// f tells t only as well as the long radii do: beside the end of a needle it is 1 to 1e-5 where t is still off by more than t, and more than the square of the
+// least radius, by which x moves. So a step is the last one only where it is short beside both.
 //
 // Hart, "Distance to an ellipsoid", Graphics Gems IV (1994); Eberly, "Distance from a point to an ellipse, an ellipsoid, or a hyperellipsoid" (2013).
 #pragma once
@@ -146,11 +148,11 @@ void project(const ConeCore<S>& core, const Vector<3, S>& p, ProjectionStart<S>&
 /// No radius may be zero.
 template <int D, class S>
 void project(const EllipsoidCore<D, S>& core, const Vector<D, S>& p, ProjectionStart<S>& start, Projection<D, S>& out) {
-  S squared[D], stretched[D], inverse[D], scaled = 0, length = 0;  // one by one, as they are read: see MinkowskiDifference::support
+  S squared[D], stretched[D], inverse[D], scaled = 0, length = 0, least = std::numeric_limits<S>::infinity();  // one by one, as they are read: see MinkowskiDifference::support
   for (int i = 0; i < D; ++i) {
     const S r = core.radii[i], q = p[i] / r;
     squared[i] = r * r, stretched[i] = r * p[i];
-    scaled += q * q, length += p[i] * p[i];
+    scaled += q * q, length += p[i] * p[i], least = std::min(least, squared[i]);
   }
   if (!(scaled > 1)) return held_point(p, out);
   S& t = start.t;
@@ -168,10 +170,13 @@ void project(const EllipsoidCore<D, S>& core, const Vector<D, S>& p, ProjectionS
     for (int i = 0; i < D; ++i) inverse[i] = 1 / (squared[i] + t);
     evaluate();
     const S step = (std::sqrt(f) - 1) * f / slope;
-    if (std::abs(f - 1) < S(1e-5)) {  // the last step squares that: no need to divide again
-      t += step;
-      for (int i = 0; i < D; ++i) inverse[i] -= step * inverse[i] * inverse[i] * (1 - step * inverse[i]);
-      break;
+    if (std::abs(f - 1) < S(1e-5)) {
+      if (std::abs(step) < S(1e-4) * (least + t)) [[likely]] {  // the last step squares that: no need to divide again
+        t += step;
+        for (int i = 0; i < D; ++i) inverse[i] -= step * inverse[i] * inverse[i] * (1 - step * inverse[i]);
+        break;
+      }
+      if (std::abs(f - 1) <= 8 * std::numeric_limits<S>::epsilon()) break;  // which is what f rounds
     }
     t = t + step > 0 ? t + step : t / 8;
   }

@@ -15,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -64,9 +65,23 @@ struct Around {
   Around(const Vector<3, S>& d, int axis) : i((axis + 1) % 3), j((axis + 2) % 3), sigma(std::sqrt(d[i] * d[i] + d[j] * d[j])) {}
   /// The point of a circle of this radius farthest along d; its centre when d has no part in the circle's plane.
   void on_circle(const Vector<3, S>& d, S radius, Vector<3, S>& s) const {
-    const S scale = sigma > 0 ? radius / sigma : S(0);
+    if (!(sigma > least)) [[unlikely]] return on_circle_of_next_to_none(d, radius, s);
+    const S scale = radius / sigma;
     s[i] = scale * d[i];
     s[j] = scale * d[j];
+  }
+
+ private:
+  /// Of a part below this the squares lose digits, or vanish, and radius / sigma would lead beside the circle.
+  static constexpr S least = std::is_same_v<S, float> ? S(1e-15) : S(1e-145);
+
+  [[gnu::noinline]] void on_circle_of_next_to_none(const Vector<3, S>& d, S radius, Vector<3, S>& s) const {
+    s[i] = s[j] = 0;
+    const S most = std::max(std::abs(d[i]), std::abs(d[j]));
+    if (!(most > 0)) return;
+    const S x = d[i] / most, y = d[j] / most, scale = radius / std::sqrt(x * x + y * y);
+    s[i] = scale * x;
+    s[j] = scale * y;
   }
 };
 

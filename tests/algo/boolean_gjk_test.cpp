@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "algo/solve.h"
+#include "recordings/scene_file.h"
 #include "tests/support/random_scenes.h"
 
 namespace gjkdbg {
@@ -28,6 +29,20 @@ TEST(BooleanGjk, NextToALine) {
         EXPECT_EQ(solve(scene, resolve_settings(method, scene)).intersecting, sign < 0) << gap * sign << " " << word_of(scalar);
       }
     }
+}
+
+/// 4.2e-5 beside a long edge: of the way there a 770th was left, which rounding turned so far that the edge's other end seemed to lie beyond the origin.
+TEST(BooleanGjk, BesideAnEdgeInFloat) {
+  Scene scene = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 2, "query": "intersect", "bodies": [
+    {"shape": {"type": "polygon", "points": [[-0.4925058157630563, 0.9655890876215465], [-0.641244825897003, -0.9794806028682791], [0.1124983687446206, -0.6570532867957316]]},
+     "pose": {"position": [0.21729744061481004, -1.4226805990150726], "rotation": {"matrix": [[0.3908889427196078, -0.9204378493193047], [0.9204378493193047, 0.3908889427196078]]}}},
+    {"shape": {"type": "box", "half_extents": [8.279652560438359e-06, 4.808746648892961e-06]},
+     "pose": {"position": [0.8320822584115957, -1.574397123039495], "rotation": {"matrix": [[-0.17989426215951784, 0.9836859531588741], [-0.9836859531588741, -0.17989426215951784]]}}}]})", {}).scene;
+  Method method;
+  method.name = MethodName::gjk_boolean, method.scalar = Scalar::float_precision;
+  EXPECT_FALSE(solve(scene, resolve_settings(method, scene)).intersecting);
+  scene.query = Query::penetration;
+  EXPECT_GT(*solve(scene, resolve_settings({}, scene)).lower_bound, 4e-5);
 }
 
 /// Lengths about 2^17 are as large as float is reckoned in without a scale: eighth powers of them are no numbers any more.

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "algo/solve.h"
@@ -72,6 +74,25 @@ TEST(Projections, FormulasHold) {
   formulas_hold<3>({{Sphere{0.5}, 0}, {Capsule{0.2, 0.7, 1}, 0}, {Box{Eigen::Vector3d(-0.3, -0.2, -1), Eigen::Vector3d(0.5, 0.4, 1), true}, 0}, {Cylinder{0.4, 0.7, 0}, 0}, {Cylinder{1, 0.01, 2}, 0},
                     {Cone{0.5, 0.6, 1}, 0}, {Cone{0.01, 1, 2}, 0}, {Cone{1, 0.01, 0}, 0}, {Cone{0.5, 0, 1}, 0}, {Cone{0, 0.5, 2}, 0}, {Cylinder{0.5, 0, 0}, 0}, {Cylinder{0, 0.5, 1}, 0}, {Capsule{0.2, 0, 1}, 0}, {Box{Eigen::Vector3d(-0.5, 0, -1), Eigen::Vector3d(0.5, 0, 1), true}, 0}, {Ellipsoid{Eigen::Vector3d(0.3, 1, 0.5)}, 0}, {Ellipsoid{Eigen::Vector3d(0.01, 1, 1)}, 0}, {Ellipsoid{Eigen::Vector3d(0.02, 0.01, 2)}, 0}});
   formulas_hold<2>({{Sphere{0.5}, 0}, {Capsule{0.2, 0.7, 1}, 0}, {Box{Eigen::Vector2d(-0.3, -0.2), Eigen::Vector2d(0.5, 0.4), true}, 0}, {Ellipsoid{Eigen::Vector2d(1, 0.02)}, 0}});
+}
+
+/// Next to a needle or a leaf, out along the normal of a point: that is the nearest one. It was missed by up to 2e-6 of the size.
+TEST(Projections, FindThePointOfANeedleThatIsNextToThem) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> exponent(-10, 0);
+  for (const Eigen::Vector3d& radii : {Eigen::Vector3d(1.5e-5, 0.085, 1.1e-6), Eigen::Vector3d(1.2e-5, 0.08, 4.4e-4), Eigen::Vector3d(0.3, 1, 0.5), Eigen::Vector3d(1e-3, 1, 1), Eigen::Vector3d(0.02, 0.01, 2)}) {
+    const EllipsoidCore<3, double> core{radii};
+    double worst = 0;
+    for (int k = 0; k < 5000; ++k) {
+      const Eigen::Vector3d on_ball = Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized(), point = radii.cwiseProduct(on_ball), out = on_ball.cwiseQuotient(radii).normalized();
+      ProjectionStart<double> start;
+      Projection<3, double> found;
+      project(core, Vector<3, double>(point + std::pow(10, exponent(random)) * out), start, found);
+      worst = std::max(worst, (found.point - point).norm());
+    }
+    EXPECT_LT(worst, 2e-9 * radii.maxCoeff()) << radii.transpose();
+  }
 }
 
 Settings projections(const Scene& scene, Scalar scalar = Scalar::double_precision) {

@@ -126,5 +126,29 @@ TEST(CheckHints, YesOrNoWhereTheBodiesTouch) {
   EXPECT_EQ(told(2 + 1e-12, true, exact), "");  // the tolerance to stop at
 }
 
+/// The same of round bodies, by the plane across the right normal: what reaches into the other by more than rounding is not apart, whoever says so.
+TEST(CheckHints, YesOrNoWhereRoundBodiesTouch) {
+  const auto told = [](double gap, bool own, Scalar scalar) {
+    Recording recording = record(parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 2, "query": "intersect", "bodies": [{"shape": {"type": "ellipse", "radii": [2, 1]}}, {"shape": {"type": "circle", "radius": 0.5}, "pose": {"position": [0, 0]}}]})", {}));
+    recording.scene.scene.bodies[1].pose.position[0] = 2.5 + gap;
+    recording.settings.scalar = scalar;
+    recording.events.clear(), recording.result = {}, recording.result.status = GjkStatus::separated, recording.result.intersecting = false;
+    if (!own) recording.generator = "another";
+    const AnyVector d = Eigen::Vector2d(1, 0), a = Eigen::Vector2d(2, 0), b = Eigen::Vector2d(2.5 + gap, 0);
+    recording.events.push_back(recorded::GjkBegan{d});
+    recording.events.push_back(recorded::SupportQueried{0, Phase::gjk, d, 0, a, b, a - b});
+    const double unset = std::numeric_limits<double>::quiet_NaN();
+    recording.events.push_back(recorded::GjkEnded{0, GjkStatus::separated, unset, unset});
+    const auto findings = check(recording);
+    return std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.code == "unjustified-separation"; });
+  };
+  for (const bool own : {false, true}) {
+    for (const double deep : {1e-13, 1e-12, 1e-11, 1e-10, 1e-8, 1e-6, 1e-3}) EXPECT_TRUE(told(-deep, own, Scalar::double_precision)) << deep << " " << own;
+    for (const double deep : {3e-6, 3e-5, 1e-4, 1e-2}) EXPECT_TRUE(told(-deep, own, Scalar::float_precision)) << deep << " " << own;
+    for (const double gap : {1e-12, 1e-10, 1e-8}) EXPECT_FALSE(told(gap, own, Scalar::double_precision)) << gap << " " << own;
+    EXPECT_FALSE(told(-1e-8, own, Scalar::float_precision)) << own;
+  }
+}
+
 }  // namespace
 }  // namespace gjkdbg

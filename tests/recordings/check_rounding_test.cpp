@@ -63,6 +63,32 @@ TEST(CheckRounding, TheNormalOfBodiesNextToTouchingIsTurned) {
   EXPECT_EQ(said_of(recording), "");
 }
 
+/// Of a portal 1e-4 thin in single precision, and of one of 2e-10: the plane of three vertices is not that of one of them. Another program's is to be.
+TEST(CheckRounding, ThePlaneOfASliverIsTurned) {
+  for (const char* scene : {R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "intersect", "method": {"name": "mpr", "scalar": "float"}, "bodies": [
+    {"shape": {"type": "segment", "points": [[-7.964645926752549e-06, -0.47251365154854763, 0.5850286706662069], [5.947166888633967e-07, -0.022080880101524092, -0.8064804007260065]]}, "pose": {"position": [-1.3845439345750656, -0.7041815039959038, -1.915998119236233], "rotation": {"matrix": [[-0.24001174105177503, -0.9679423905642219, 0.07403980487626155], [0.3060951992953689, -0.003079572766557792, 0.9519959270920773], [-0.92124920251017, 0.25115342876495766, 0.2970216525675885]]}}},
+    {"shape": {"type": "sum", "of": [{"type": "hull", "points": [[0.09385820081336416, 0.0031327165666716894, 0.00016014192828234944], [-0.09058742785498894, -0.8313045484134215, -0.1383152038269403], [-0.1754834537396518, 0.6656189476398764, -2.0199008631499552e-05]]}, {"type": "segment", "points": [[0.9846708393398464, -0.011212090959445095, -0.012894811648209603], [-9.95793812479029e-07, 0.6996400603776551, -0.2149374580735064]], "margin": 0.001238648984161194}]}, "pose": {"position": [0.07301639301021234, -0.7011050626221508, -2.1963608497717635], "rotation": {"matrix": [[0.6630539514879943, -0.7047012233039072, 0.252498798591465], [0.7140092334383001, 0.4940650997692674, -0.4960750868112959], [0.22483387640879993, 0.5092110201713632, 0.8307549969485781]]}}}]})",
+       R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "intersect", "method": {"name": "mpr"}, "bodies": [
+    {"shape": {"type": "hull", "points": [[-0.0016597094204148484, -0.9029850061770888, 0.48895124542448243], [0.3549110374866902, 0.06887622570341101, -7.37386075451155e-05], [0.2888919896484796, -0.6923495184494621, -2.655174660432722e-05]], "margin": 9.488336055813265e-07}, "pose": {"position": [0.22722676075872972, -0.2560002392639281, -0.017342420781136625], "rotation": {"matrix": [[0.6038036047615281, -0.34546282219377505, 0.7183847474431069], [-0.797125327923532, -0.2656589036236596, 0.5422329374985226], [0.003523983511034945, -0.9000448796628906, -0.43578296907156266]]}}},
+    {"shape": {"type": "point", "points": [[0.1465362344501636, -0.5379041465838355, 0.01631241511885051]]}, "pose": {"position": [0.7351253200492787, -0.8474821969626112, 0.2855458609155498], "rotation": {"matrix": [[-0.8038758730665043, 0.19917027215452388, 0.5604594395595974], [0.20766240204750275, -0.7889968215974048, 0.5782390010065512], [0.55736873564762, 0.5812187352443878, 0.5928953316762475]]}}}]})"}) {
+    Recording recording = run_of(scene);
+    EXPECT_EQ(said_of(recording), "");
+    recording.generator = "another";
+    EXPECT_NE(said_of(recording).find("wrong-face"), std::string::npos);
+  }
+}
+
+/// In single precision, 1.5e-7 deep: the points that are projected are no better known, and either answer is right.
+TEST(CheckRounding, RoundBodiesThatTouchByTheirProjections) {
+  Recording recording = run_of(R"({"format": "gjk-scene", "version": 1, "dimension": 2, "query": "intersect", "method": {"name": "projections", "scalar": "float"}, "bodies": [
+    {"shape": {"type": "capsule", "radius": 0.00046424271117729193, "half_height": 5.2724635508622335e-05, "axis": "x"},
+     "pose": {"position": [-0.5801655648699204, -0.3261080873669525], "rotation": {"matrix": [[0.5711671944060898, -0.82083374445394], [0.82083374445394, 0.5711671944060898]]}}},
+    {"shape": {"type": "capsule", "radius": 1.8264841725251896e-06, "half_height": 0.7018809017175992, "axis": "x"},
+     "pose": {"position": [0.02092824460921542, -0.4342494651225123], "rotation": {"matrix": [[0.9843477861722153, 0.1762368742853171], [-0.1762368742853171, 0.9843477861722153]]}}}]})");
+  EXPECT_FALSE(recording.result.intersecting);
+  EXPECT_EQ(said_of(recording), "");
+}
+
 TEST(CheckRounding, PointsProjectedFarOut) { EXPECT_EQ(said_of(run_of(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "penetration", "bodies": [
     {"shape": {"type": "box", "half_extents": [0.5, 0.3, 0.501]}, "pose": {"rotation": {"quaternion": [-0.6889933311254824, -0.47884165749354113, 0.5000064661230332, -0.2144583655365433]}, "position": [430.68490967361674, -33788.113854130985, -403.5327212806239]}},
     {"shape": {"type": "box", "half_extents": [1.0, 1.35, 0.6]}, "pose": {"rotation": {"quaternion": [-0.6889933311254824, -0.47884165749354113, 0.5000064661230332, -0.2144583655365433]}, "position": [431.26967683797, -33787.89630770814, -402.07775989462294]}}], "method": {"name": "projections", "closest_point": "johnson", "start": "given", "initial_direction": [0.0535273505876905, -0.6685792426433382, -0.5680074246351977]}})")), ""); }

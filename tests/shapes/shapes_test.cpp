@@ -106,6 +106,19 @@ TEST(Support, IsExactOnTheAxis) {
   EXPECT_EQ(support({Ellipsoid{any(V3(1, 2, 3))}, 0}, V3(0, 0, -5)), V3(0, 0, -3));
 }
 
+/// Along the axis but for what rounding left: in single precision the squares of that vanish, or lose digits, and the point lay up to the radius beside the rim.
+TEST(Support, LiesOnTheRimHoweverLittleLeadsThere) {
+  const auto off_the_rim = []<class S>(const Shape& shape, const Vector<3, S>& d) {
+    const Vector<3, S> p = Convex<3, S>(shape).support(d);
+    return std::abs(static_cast<double>(std::hypot(p[0], p[2])) - 0.5);
+  };
+  for (const Shape& shape : {Shape{Cylinder{0.5, 1, 1}, 0}, Shape{Cone{0.5, 1, 1}, 0}})
+    for (double little = 1; little > 1e-37; little /= 7) {
+      EXPECT_LT(off_the_rim(shape, Vector<3, float>(static_cast<float>(little), -2e-6F, static_cast<float>(little / 3))), 1e-6) << little;
+      EXPECT_LT(off_the_rim(shape, Vector<3, double>(std::pow(little, 7), -2e-6, 0)), 1e-15) << little;
+    }
+}
+
 TEST(Support, OfAZeroDirectionIsAPointOfTheShape) {
   const V3 half(1, 1, 1);
   for (const Shape& shape : {Shape{Box{any(-half), any(half), true}, 0}, Shape{Cylinder{1, 1, 1}, 0}, Shape{Cone{1, 1, 1}, 0}, Shape{Ellipsoid{any(half)}, 0}}) {
