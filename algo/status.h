@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -84,7 +85,8 @@ constexpr std::string_view word_of(ProjectionsStatus x) { return projections_sta
 class StatusWord : public std::string_view {
  public:
   StatusWord() = default;
-  consteval StatusWord(const char* literal) : std::string_view(literal) {}  // implicit on purpose: a literal is one
+  template <std::size_t size>
+  constexpr StatusWord(const char (&literal)[size]) : std::string_view(literal, size - 1) {}  // implicit on purpose: a literal is one (not consteval, which ends clang 14)
   template <class Status>
     requires std::is_enum_v<Status>
   constexpr StatusWord(Status status) : std::string_view(word_of(status)) {}  // implicit on purpose, too
