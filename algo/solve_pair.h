@@ -19,6 +19,7 @@
 #include "algo/polygon_sat.h"
 #include "algo/projections.h"
 #include "algo/result.h"
+#include "algo/revolution_sat.h"
 #include "algo/run_gjk.h"
 #include "algo/sat.h"
 #include "algo/warm_start.h"
@@ -139,6 +140,7 @@ class PairSolver {
       if (found.decided && found.overlapping()) return portal_depth(found);
       if (found.decided) return apart_after_all(found);
     }
+    if (revolution_decides()) return;
     EpaOptions<S> options;
     options.tolerance = static_cast<S>(settings_.tolerance);
     options.max_iterations = settings_.max_iterations;
@@ -150,6 +152,14 @@ class PairSolver {
     const bool flat = found.face < 0;
     if (flat && gjk_.status == GjkStatus::enclosed) weigh_enclosing(gjk_.simplex);
     witnesses(flat ? gjk_.simplex.point_a() : found.point_a, flat ? gjk_.simplex.point_b() : found.point_b, found.normal, -found.depth);
+  }
+
+  /// False: no bodies of revolution about parallel axes, or not decided.
+  bool revolution_decides() {
+    if constexpr (D == 3)
+      if (const auto found = revolution_sat(difference_, static_cast<S>(settings_.tolerance), trace_); found && sat_answers(found->sat, false))
+        return sat_depth(found->sat, found->points, found->slack), true;
+    return false;
   }
 
   /// MPR has a plane between bodies that GJK could not tell apart: GJK's simplex has the nearest points it knew.
@@ -296,15 +306,15 @@ class PairSolver {
   void sat_witnesses(const SatResult<D, S>& found, const std::optional<SatWitnesses<D, S>>& known, Query query) {
     if (query == Query::distance) return inside_both(std::max(S(0), difference_.rounding_floor() - found.depth));
     if (settings_.penetration == Penetration::none) return overlap_only(static_cast<double>(difference_.rounding_floor()) - radius_ + rounding());
-    V a, b;
-    if (known) {
-      a = known->a, b = known->b;
-    } else {
-      const GjkResult<D, S> touching = push_apart(found.normal, found.depth);
-      a = touching.simplex.point_a(), b = touching.simplex.point_b() - push_;
-    }
-    set_bounds(-found.depth - difference_.rounding_floor(), -found.depth + difference_.rounding_floor());
-    witnesses(a, b, found.normal, -found.depth);
+    if (known) return sat_depth(found, *known);
+    const GjkResult<D, S> touching = push_apart(found.normal, found.depth);
+    sat_depth(found, {touching.simplex.point_a(), touching.simplex.point_b() - push_});
+  }
+
+  /// `slack`: how much less the depth may be than the least that was found.
+  void sat_depth(const SatResult<D, S>& found, const SatWitnesses<D, S>& points, S slack = 0) {
+    set_bounds(-found.depth - difference_.rounding_floor(), -found.depth + difference_.rounding_floor() + slack);
+    witnesses(points.a, points.b, found.normal, -found.depth);
   }
 
   /// With body 1 moved out along the normal, by the depth and some more, the closest points are the witnesses.

@@ -55,6 +55,7 @@ class RecordCheck {
   void judge(const recorded::EpaEnded& e);
   void judge(const recorded::MprBegan& e);
   void count_axes(const recorded::SatBegan& e);
+  void count_section_axes(const recorded::SatBegan& e);
   void judge(const recorded::PortalFound& e);
   void judge(const recorded::MprEnded& e);
   void judge(const recorded::SatBegan& e);
@@ -99,6 +100,7 @@ class RecordCheck {
   std::map<int, recorded::Face> faces_;       ///< EPA's, those removed too
   std::set<int> standing_, chosen_;           ///< of these
   double height_ = 0;                         ///< the least along the normals chosen
+  double section_slack_ = 0;                  ///< SAT's, of bodies of revolution: how much less the depth may be than the least along its axes
   std::array<Number, 3> axes_{};              ///< SAT's, by source: how many may still come
   std::optional<recorded::ClosedFormBegan> segments_;
   std::vector<Edge> pairs_;                   ///< of the bodies that a cast looks at

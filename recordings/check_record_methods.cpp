@@ -6,6 +6,8 @@
 #include <tuple>
 
 #include "algo/motion.h"
+#include "algo/revolution_sat.h"
+#include "algo/working_scale.h"
 #include "recordings/check_record.h"
 #include "shapes/features.h"
 
@@ -13,6 +15,35 @@ namespace gjkdbg {
 namespace {
 
 bool looked_at(const std::vector<Edge>& pairs, const Edge& pair) { return std::find(pairs.begin(), pairs.end(), pair) != pairs.end(); }
+
+/// A body of revolution of which SAT knows the section; empty: none.
+std::optional<Revolved<double>> revolved_body(const Body& body, int dimension) {
+  if (dimension != 3 || std::holds_alternative<Mesh>(body.shape.geometry)) return std::nullopt;
+  return revolved<double>(Convex<3, double>(body.shape).core());
+}
+
+/// Of these SAT tells the depth where their axes are parallel, whatever the method.
+bool of_revolution(const Recording& recording) {
+  const Scene& scene = recording.scene.scene;
+  return scene.query > Query::distance && recording.settings.penetration == Penetration::epa &&
+         std::count_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) { return revolved_body(body, scene.dimension).has_value(); }) >= 2;
+}
+
+/// The section of the difference of two of them: how many edges of each count, and how much less the depth may be than is found along them.
+struct Section {
+  int of_a, of_b;
+  double slack;
+};
+template <class S>
+std::optional<Section> section_of(const Recording& recording) {
+  const Body &a = recording.scene.scene.bodies[0], &b = recording.scene.scene.bodies[1];
+  const double scale = working_scale<S>(a, b);
+  const Convex<3, S> core_a(a.shape, scale), core_b(b.shape, scale);
+  const auto pair = RevolvedPair<S>::of(MinkowskiDifference<3, S, Convex<3, S>>(core_a, core_b, a.pose, b.pose, scale), static_cast<S>(recording.settings.tolerance));
+  if (!pair) return std::nullopt;
+  const auto normals = pair->normals();
+  return Section{normals.of_a, normals.of_b, static_cast<double>(pair->slack) / scale};
+}
 
 }  // namespace
 
@@ -26,7 +57,8 @@ std::string RecordCheck::not_by_this_method() const {
   const bool mpr_may_follow = s.penetration == Penetration::mpr || c_.recording.scene.scene.query == Query::intersect;  // where GJK stalls
   for (const Own& own : {Own{MethodName::mpr, "mpr_began", "mpr_began"}, Own{MethodName::sat, "sat_began", "flat-difference"}, Own{MethodName::projections, "projections_began", "flat-ellipsoid"}, Own{MethodName::closed_form, "closed_form_began", "closed_form_began"}}) {
     if (s.name == own.name && !methods_.contains(own.began) && !methods_.contains(own.left)) return "no step of it is there";
-    if (s.name != own.name && methods_.contains(own.began) && !(own.name == MethodName::mpr && mpr_may_follow)) return "there is \"" + std::string(own.began) + "\"";
+    const bool may_follow = own.name == MethodName::mpr ? mpr_may_follow : own.name == MethodName::sat && of_revolution(c_.recording);
+    if (s.name != own.name && methods_.contains(own.began) && !may_follow) return "there is \"" + std::string(own.began) + "\"";
   }
   return "";
 }
@@ -88,10 +120,12 @@ void RecordCheck::judge(const recorded::MprEnded& e) {
   lower_ = -height_, upper_ = portal_ == Portal::none || std::isnan(cleared_) ? unknowable : -std::max(0.0, cleared_);
 }
 
-/// Of two boxes opposite faces and parallel edges share their axes; of others there is one for every way that a face faces, and for two edges of different ways.
+/// Of two boxes opposite faces and parallel edges share their axes; of others there is one for every way that a face faces, and for two edges of different ways. Of bodies of revolution
+/// the edges of a section count.
 void RecordCheck::count_axes(const recorded::SatBegan& e) {
   const auto& bodies = c_.recording.scene.scene.bodies;
   if (!c_.has_supports || bodies.size() != 2) return;
+  if (c_.recording.settings.name != MethodName::sat) return count_section_axes(e);
   const std::optional<Features> a = features_of(bodies[0].shape, c_.dimension), b = features_of(bodies[1].shape, c_.dimension);
   if (!a || !b) return;
   const auto count = [](const auto& list) { return static_cast<Number>(list.size()); };
@@ -102,6 +136,17 @@ void RecordCheck::count_axes(const recorded::SatBegan& e) {
   if (said == of_all || (may_be_box(bodies[0]) && may_be_box(bodies[1]) && said == of_boxes)) return;
   const auto told = [](const std::array<Number, 3>& n) { return std::to_string(n[0]) + " and " + std::to_string(n[1]) + " faces and " + std::to_string(n[2]) + " pairs of edges"; };
   contradiction("SAT is said to have " + told(said) + " to look along; the bodies have " + told(boxes ? of_boxes : of_all) + ".");
+}
+
+void RecordCheck::count_section_axes(const recorded::SatBegan& e) {
+  section_slack_ = 0;
+  if (!of_revolution(c_.recording)) return;
+  const std::optional<Section> right = c_.recording.settings.scalar == Scalar::float_precision ? section_of<float>(c_.recording) : section_of<double>(c_.recording);
+  if (!right) return contradiction("SAT begins, but the bodies are no bodies of revolution with parallel axes.");
+  section_slack_ = right->slack;
+  if (e.faces_a != right->of_a || e.faces_b != right->of_b || e.edge_pairs != 0)
+    contradiction("SAT is said to have " + std::to_string(e.faces_a) + " and " + std::to_string(e.faces_b) + " faces and " + std::to_string(e.edge_pairs) + " pairs of edges to look along; the section of these bodies of revolution has " +
+                  std::to_string(right->of_a) + " and " + std::to_string(right->of_b) + " edges that count.");
 }
 
 /// A pair of edges of which one has no faces beside it is an axis both ways.
@@ -124,7 +169,7 @@ void RecordCheck::judge(const recorded::SatEnded& e) {
   if (known && !wider && differ(e.distance, plane_) && differ(e.distance, nearest_projected_.value_or(plane_)))
     contradiction("SAT ends with a distance of " + text_of(e.distance) + ", but the steps before give " + text_of(nearest_projected_.value_or(plane_)) + ".");
   lower_ = upper_ = unknowable;
-  if (e.status == SatStatus::overlapping && c_.recording.scene.scene.query > Query::distance && c_.recording.settings.penetration != Penetration::none) lower_ = upper_ = e.distance;
+  if (e.status == SatStatus::overlapping && c_.recording.scene.scene.query > Query::distance && c_.recording.settings.penetration != Penetration::none) lower_ = e.distance, upper_ = e.distance + section_slack_;
   if (e.status == SatStatus::separated && nearest_projected_) lower_ = projected_bounds_.first, upper_ = projected_bounds_.second;
 }
 

@@ -50,7 +50,7 @@ void TraceCheck::values(const Event& event) {
 }
 
 /// A motion encloses the runs it is made of; these do not enclose one another. EPA has no beginning of its own: it
-/// follows a run of GJK, perhaps with MPR between.
+/// follows a run of GJK, perhaps with MPR or SAT between.
 void TraceCheck::phases(const Event& event) {
   const std::string_view kind = kind_name(event), inside = std::visit(PhaseOf{open_ == sat}, event);
   const bool begins = kind.ends_with("_began"), ends = kind.ends_with("_ended");
@@ -80,7 +80,7 @@ void TraceCheck::phases(const Event& event) {
   open_ = ends ? std::string_view() : phase;
   if (!ends) return;
   last_ended_ = phase;
-  expandable_ = phase == gjk || (expandable_ && phase == mpr);
+  expandable_ = phase == gjk || (expandable_ && (phase == mpr || phase == sat));
 }
 
 void TraceCheck::finish() {
