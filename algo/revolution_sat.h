@@ -1,4 +1,4 @@
-// The separating axis test of two bodies of revolution whose axes are parallel: cylinders, cones, capsules, balls that stand beside or within one another.
+// How deep two bodies of revolution are whose axes are parallel: cylinders, cones, capsules, balls, spheroids that stand beside or within one another.
 //
 // EPA builds a polytope around the origin. Where that lies on the axis of A - B, nearest to the side, a whole circle of points is nearest, and a polytope of n sides is
 // 1 - cos(pi / n) short of it: for ten digits it would need a hundred thousand. But both bodies stay what they are when they turn about the direction u of their axes, so A - B is a body
@@ -12,8 +12,17 @@
 //   corners   (+-top, half), (+-bottom, -half)          in the axes e, u about the middle: a cylinder has top = bottom, a cone top = 0,
 //   normals   (0, 1), (0, -1), (2 half, bottom - top)   a segment neither, and a point is no half as high, too,
 //
-// and the normals of the sum's edges are those of both (the mirrored ones lead away from the origin and are never nearer). The depth is the least height along them, as for any polytope
-// (algo/sat.h): four axes at most, for the ends share theirs. Its witness points lie on an edge of each section, or at a corner: in the middle of what the edges share.
+// or an ellipse, a spheroid's. Of two trapezoids the normals of the sum's edges are those of both (the mirrored ones lead away from the origin and are never nearer), and the depth is the least
+// height along them, as for any polytope (algo/sat.h): four axes at most, for the ends share theirs. Its witness points lie on an edge of each section, or at a corner: in the middle of what the
+// edges share.
+//
+// With an ellipse the least height is searched for, an arc of directions t at a time. Where n1, n2 touch the section at w1, w2, no height between them is less than
+//
+//   max(n . w1, n . w2)   at its least: across w2 - w1, along -w1 or -w2, or at an end of the arc
+//
+// (EPA's bound in the plane, without its need of a polytope around the origin). The direction of the least of all these is the next to be looked along. An ellipse with half axes p <= q is
+// the sum of a disc of radius p^2 / q, its sharpest bend, and a convex rest: the disc counts exactly, by its radius, and w1, w2 are those of the rest. So concentric balls are proven at once,
+// and what is nearly a ball in a few steps.
 //
 // Axes that are not quite parallel are taken to be while that matters less than the tolerance. Turned upright, by a rotation that takes a unit vector along B's axis by s from where it is, no
 // point of B moves by more than s extent_B, and no height changes by more: the least height over all directions is no lower than the least found, less twice that.
@@ -24,40 +33,51 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <variant>
 
 #include "algo/sat.h"
 
 namespace gjkdbg {
 
-/// A body of revolution by its section, and where its axis is.
+/// A body of revolution by its section, a trapezoid or an ellipse, and where its axis is.
 template <class S>
 struct Revolved {
-  Vector<3, S> axis;    ///< unit, from bottom to top; zero where every one will do: a point
+  Vector<3, S> axis;    ///< unit, from bottom to top; zero where every one will do: a point, a ball
   Vector<3, S> middle;  ///< of the axis between bottom and top, in the frame of `axis`
-  S top, bottom, half;  ///< radii of both ends, half the height
+  S top = 0, bottom = 0, half = 0;  ///< radii of both ends, half the height
+  S across = 0, along = 0;          ///< an ellipse's half axes
 
-  bool point() const { return top == 0 && bottom == 0 && half == 0; }
+  S widest() const { return std::max({top, bottom, across}); }
+  S highest() const { return half + along; }
+  bool ellipse() const { return across > 0 || along > 0; }
+  S sharpest() const { return ellipse() ? std::min(across, along) * (std::min(across, along) / std::max(across, along)) : S(0); }  ///< the least radius of its curve
   /// The same in another frame.
-  Revolved placed(const Matrix<3, S>& rotation, const Vector<3, S>& position) const { return {rotation * axis, rotation * middle + position, top, bottom, half}; }
+  Revolved placed(const Matrix<3, S>& rotation, const Vector<3, S>& position) const { return {rotation * axis, rotation * middle + position, top, bottom, half, across, along}; }
   /// With the axis the other way round.
-  Revolved turned() const { return {-axis, middle, bottom, top, half}; }
+  Revolved turned() const { return {-axis, middle, bottom, top, half, across, along}; }
 };
 
-/// Unset where the core is none, or one whose section has no corners: an ellipsoid.
+/// Unset where the core is none.
 template <class S, class Core>
 std::optional<Revolved<S>> revolved(const Core& core) {
   using V = Vector<3, S>;
-  if (std::holds_alternative<PointCore<3, S>>(core)) return Revolved<S>{V::Zero(), V::Zero(), 0, 0, 0};
+  if (std::holds_alternative<PointCore<3, S>>(core)) return Revolved<S>{V::Zero(), V::Zero()};
   if (const auto* x = std::get_if<SegmentCore<3, S>>(&core)) return Revolved<S>{V::Unit(x->axis), V::Zero(), 0, 0, x->half_height};
   if (const auto* x = std::get_if<CylinderCore<S>>(&core)) return Revolved<S>{V::Unit(x->axis), V::Zero(), x->radius, x->radius, x->half_height};
   if (const auto* x = std::get_if<ConeCore<S>>(&core)) return Revolved<S>{V::Unit(x->axis), V::Zero(), 0, x->radius, x->half_height};
+  if (const auto* x = std::get_if<EllipsoidCore<3, S>>(&core)) {
+    const V& r = x->radii;
+    for (int k = 0; k < 3; ++k)
+      if (const S across = r[(k + 1) % 3]; across == r[(k + 2) % 3]) return Revolved<S>{across == r[k] ? V(V::Zero()) : V(V::Unit(k)), V::Zero(), 0, 0, 0, across, r[k]};
+    return std::nullopt;
+  }
   const auto* few = std::get_if<VerticesCore<3, S>>(&core);
   if (!few || few->vertices.size() > 2) return std::nullopt;
-  const V first = few->vertices[0], along = few->vertices[few->vertices.size() - 1] - first;
-  const S length = along.norm();
-  if (length > 0) return Revolved<S>{along / length, first + along / 2, 0, 0, length / 2};
-  return Revolved<S>{V::Zero(), first, 0, 0, 0};
+  const V first = few->vertices[0], step = few->vertices[few->vertices.size() - 1] - first;
+  const S length = step.norm();
+  if (length > 0) return Revolved<S>{step / length, first + step / 2, 0, 0, length / 2};
+  return Revolved<S>{V::Zero(), first};
 }
 
 /// A normal of an edge of the section of A - B, in the axes e, u, of any length.
@@ -73,7 +93,9 @@ struct RevolvedPair {
   Revolved<S> a, b;
   S slack;  ///< how much less than the least height along the normals the depth may be, since the axes are not quite parallel
 
-  /// Each once: those of A's edges come first.
+  bool curved() const { return a.ellipse() || b.ellipse(); }
+
+  /// Of the trapezoids' edges. Each once: those of A's edges come first.
   struct Normals {
     std::array<SectionNormal<S>, 4> list;
     int of_a = 0, of_b = 0;
@@ -102,7 +124,7 @@ struct RevolvedPair {
       const auto a = revolved<S>(difference.a().core());
       if (!a) return std::nullopt;
       const auto b = revolved<S>(difference.b().core());
-      if (!b || a->top + a->bottom + b->top + b->bottom == 0 || a->half + b->half == 0) return std::nullopt;
+      if (!b || a->widest() + b->widest() == 0 || a->highest() + b->highest() == 0) return std::nullopt;
       const S extent = static_cast<S>(difference.b().extent()), depth = static_cast<S>(difference.a().extent()) + extent;  // it is no more than that
       const RevolvedPair pair = about_one_axis(*a, b->placed(difference.rotation(), difference.position()), extent);
       if (pair.bearable(difference.rounding_floor(), tolerance * depth)) return pair;
@@ -113,8 +135,8 @@ struct RevolvedPair {
 
  private:
   static RevolvedPair about_one_axis(Revolved<S> a, Revolved<S> b, S extent) {
-    if (a.point()) a.axis = b.axis;
-    if (b.point()) b.axis = a.axis;
+    if (is_zero(a.axis)) a.axis = is_zero(b.axis) ? Vector<3, S>(Vector<3, S>::Unit(1)) : b.axis;
+    if (is_zero(b.axis)) b.axis = a.axis;
     if (a.axis.dot(b.axis) < 0) b = b.turned();
     return {a, b, 2 * extent * (a.axis - b.axis).norm()};
   }
@@ -125,38 +147,33 @@ class RevolutionSat {
   using S = typename Difference::S;
   using V = Vector<3, S>;
   using Flat = Vector<2, S>;  ///< in the axes e, u
+  static constexpr S unknown = std::numeric_limits<S>::quiet_NaN();
 
  public:
   /// Keeps references.
   RevolutionSat(Difference& difference, const RevolvedPair<S>& pair, Trace& trace)
-      : difference_(difference), trace_(trace), floor_(difference.rounding_floor()), pair_(pair), u_(pair.a.axis), e_(across(u_, pair.b.middle - pair.a.middle)) {}
+      : difference_(difference), trace_(trace), floor_(difference.rounding_floor()), pair_(pair), bend_(pair.a.sharpest() + pair.b.sharpest()), u_(pair.a.axis), e_(across(u_, pair.b.middle - pair.a.middle)) {}
 
-  /// `overlapping` where the depth is known: within rounding, or this tolerance, a part of it.
-  const SatResult<3, S>& run(S tolerance) {
+  /// `overlapping` where the depth is known: within rounding, or this tolerance, a part of it. Of ellipses in no more than `most` steps.
+  const SatResult<3, S>& run(S tolerance, int most) {
     const auto normals = pair_.normals();
     trace_(SatBegan<V, Viewed>{normals.of_a, normals.of_b, 0});
-    for (int i = 0; i < normals.of_a + normals.of_b; ++i) look_along(normals.list[i].source, normals.list[i].n.stableNormalized());
-    const bool known = result_.depth > floor_ && pair_.bearable(floor_, tolerance * result_.depth);
+    const bool proven = pair_.curved() ? search(normals, tolerance, most) : look_along_all(normals);
+    witnesses_ = of_features();
+    const bool known = proven && result_.depth > floor_ && pair_.bearable(floor_, tolerance * result_.depth);
     result_.status = known ? SatStatus::overlapping : result_.depth < -floor_ ? SatStatus::separated : SatStatus::undecided;
     trace_(SatEnded<V, Viewed>{result_.iterations, result_.status, result_.normal, static_cast<double>(-result_.depth) - static_cast<double>(difference_.radius())});
     return result_;
   }
 
-  /// Of cores that overlap. Along the normal A's edge and B's lie `depth` from each other, and side by side, for the nearest point of A - B is within its edge. What lies on both is as near as
-  /// any: the middle of it is taken. (x, z) = height n + t along gives a point from its distance along n and across it.
-  SatWitnesses<3, S> witnesses() const {
-    const Revolved<S> &a = pair_.a, &b = pair_.b;
-    const Flat along(-n_[1], n_[0]);
-    const V across_n = e_ * along[0] + u_ * along[1];
-    const auto [low_a, high_a] = edge(a, n_, along);
-    const auto [low_b, high_b] = edge(b, -n_, along);
-    const S from_a = across_n.dot(b.middle - a.middle);
-    const S t = (std::max(low_a, low_b + from_a) + std::min(high_a, high_b + from_a)) / 2;
-    const V nearest = a.middle + result_.normal * highest(a, n_) + across_n * t;
-    return {nearest, nearest - result_.normal * result_.depth};
-  }
+  /// How much less than what was found the depth may be.
+  S slack() const { return pair_.slack + (pair_.curved() ? std::max(S(0), result_.depth - least_) : S(0)); }
+  /// Of an `overlapping` end.
+  const SatWitnesses<3, S>& witnesses() const { return witnesses_; }
 
  private:
+  using Normals = typename RevolvedPair<S>::Normals;
+
   /// Across the axis towards B, the way from the middle of A - B to the origin. Where there is none, or none but rounding, every way is as near.
   static V across(const V& u, const V& towards) {
     V e = towards - u * u.dot(towards);
@@ -167,29 +184,70 @@ class RevolutionSat {
     u.cwiseAbs().minCoeff(&least);
     return u.cross(V(V::Unit(least))).normalized();
   }
+  V in_space(const Flat& flat) const { return e_ * flat[0] + u_ * flat[1]; }
+  static S cross(const Flat& x, const Flat& y) { return x[0] * y[1] - x[1] * y[0]; }
 
-  void look_along(AxisSource source, const Flat& flat) {
-    const V n = e_ * flat[0] + u_ * flat[1];
-    const auto point = difference_.support(n);
+  SupportPoint<3, S> look_along(const Flat& flat) {
+    const V n = in_space(flat);
+    const SupportPoint<3, S> point = difference_.support(n);
     const S height = n.dot(point.w);
     ++result_.iterations;
     if (result_.iterations == 1 || height < result_.depth) result_.depth = height, result_.normal = n, n_ = flat;
+    if constexpr (traced<Trace>) trace_(SupportQueried<V, Viewed>{result_.iterations, Phase::sat, n, point.vertex, point.a, point.b, point.w});
+    return point;
+  }
+  /// `least`: that the depth is, as far as is known.
+  void tell([[maybe_unused]] AxisSource source, [[maybe_unused]] const Flat& flat, [[maybe_unused]] const SupportPoint<3, S>& point, [[maybe_unused]] S least) {
     if constexpr (traced<Trace>) {
       const double radius = static_cast<double>(difference_.radius());
-      trace_(SupportQueried<V, Viewed>{result_.iterations, Phase::sat, n, point.vertex, point.a, point.b, point.w});
-      trace_(AxisTested<V, Viewed>{result_.iterations, source, point.vertex, n, static_cast<double>(-height) - radius,
-                                   static_cast<double>(-result_.depth - floor_) - radius, std::numeric_limits<double>::quiet_NaN()});
+      const V n = in_space(flat);
+      trace_(AxisTested<V, Viewed>{result_.iterations, source, point.vertex, n, static_cast<double>(-n.dot(point.w)) - radius, static_cast<double>(-result_.depth - floor_) - radius,
+                                   static_cast<double>(floor_ - least) - radius});
     }
   }
 
+  // --- Two trapezoids ---------------------------------------------------------------------------------------------
+
+  bool look_along_all(const Normals& normals) {
+    for (int i = 0; i < normals.of_a + normals.of_b; ++i) {
+      const Flat n = normals.list[i].n.stableNormalized();
+      tell(normals.list[i].source, n, look_along(n), unknown);
+    }
+    return true;
+  }
+
+  /// Along the normal an edge of A's section, or a point, and one of B's lie `depth` from each other, and side by side, for the nearest point of A - B is within its edge (of an ellipse but for
+  /// the tolerance). What lies on both is as near as any: the middle of it is taken. (x, z) = height n + t along gives a point from its distance along n and across it.
+  SatWitnesses<3, S> of_features() const {
+    const Revolved<S> &a = pair_.a, &b = pair_.b;
+    const Flat along(-n_[1], n_[0]);
+    const V across_n = in_space(along);
+    const auto [low_a, high_a] = edge(a, n_, along);
+    const auto [low_b, high_b] = edge(b, -n_, along);
+    const S from_a = across_n.dot(b.middle - a.middle);
+    S t = (std::max(low_a, low_b + from_a) + std::min(high_a, high_b + from_a)) / 2;
+    if (!a.ellipse()) t = std::clamp(t, low_a, high_a);  // beside a corner there is nothing, beside an ellipse's farthest point nearly as much
+    if (!b.ellipse()) t = std::clamp(t, low_b + from_a, high_b + from_a);
+    const V nearest = a.middle + result_.normal * highest(a, n_) + across_n * t;
+    return {nearest, nearest - result_.normal * result_.depth};
+  }
+
   static std::array<Flat, 4> corners(const Revolved<S>& r) { return {{{r.top, r.half}, {-r.top, r.half}, {r.bottom, -r.half}, {-r.bottom, -r.half}}}; }
+  /// How far an ellipse reaches along n, and across it there: its farthest point is (across^2 n_e, along^2 n_u) / |(across n_e, along n_u)|.
+  static Flat of_ellipse(const Revolved<S>& r, const Flat& n, const Flat& beside) {
+    const Flat stretched(r.across * n[0], r.along * n[1]);
+    const S height = stretched.norm();
+    return {height, height > 0 ? beside.dot(Flat(r.across * stretched[0], r.along * stretched[1])) / height : S(0)};
+  }
   static S highest(const Revolved<S>& r, const Flat& n) {
+    if (r.ellipse()) return of_ellipse(r, n, n)[0];
     S most = -std::numeric_limits<S>::infinity();
     for (const Flat& corner : corners(r)) most = std::max(most, n.dot(corner));
     return most;
   }
   /// Where the corners that are the farthest along n, but for rounding, lie along an edge across it.
   std::pair<S, S> edge(const Revolved<S>& r, const Flat& n, const Flat& along) const {
+    if (const S at = of_ellipse(r, n, along)[1]; r.ellipse()) return {at, at};
     const S bar = highest(r, n) - floor_;
     S low = std::numeric_limits<S>::infinity(), high = -low;
     for (const Flat& corner : corners(r))
@@ -197,13 +255,80 @@ class RevolutionSat {
     return {low, high};
   }
 
+  // --- An ellipse among them --------------------------------------------------------------------------------------
+
+  /// Where n touches the sections, the discs of their sharpest bends taken off. Up to the next one no height is less than `least`, which is met along `towards`, if anywhere.
+  struct Touch {
+    Flat n, w;
+    S least;
+    Flat towards;
+  };
+  static constexpr int room = 128;
+  struct Touches {
+    std::array<Touch, room> list;  ///< by their angles
+    int count = 0;
+  };
+
+  bool search(const Normals& normals, S tolerance, int most) {
+    Touches touches;
+    for (int i = 0; i < normals.of_a + normals.of_b; ++i) add(touches, normals.list[i].source, normals.list[i].n.stableNormalized());
+    for (const Flat& n : {Flat(0, -1), Flat(0, 1), Flat(1, 0)}) add(touches, AxisSource::outline, n);
+    const auto proven = [&] { return result_.depth - least_ <= std::max(floor_, tolerance * result_.depth); };
+    for (int before = 0; !proven() && touches.count > before && touches.count < room && result_.iterations < most;) {
+      before = touches.count;
+      const Flat next = touches.list[at_].towards;  // which moves on
+      add(touches, AxisSource::outline, next);
+    }
+    return proven();
+  }
+
+  void add(Touches& touches, AxisSource source, const Flat& n) {
+    auto& list = touches.list;
+    const auto before = [](const Flat& x, const Flat& y) { return cross(x, y) > 0 || (cross(x, y) == 0 && x[1] < y[1]); };  // -u and u are across one another as well
+    int i = touches.count;
+    while (i > 0 && !before(list[i - 1].n, n)) --i;
+    if (i < touches.count && list[i].n == n) return;  // known: an end of a cylinder
+    const SupportPoint<3, S> point = look_along(n);
+    for (int k = touches.count++; k > i; --k) list[k] = list[k - 1];
+    list[i] = {n, Flat(e_.dot(point.w), u_.dot(point.w)) - n * bend_, 0, n};
+    if (i > 0) bound(list[i - 1], list[i]);
+    if (i + 1 < touches.count) bound(list[i], list[i + 1]);
+    least_ = std::numeric_limits<S>::infinity();
+    for (int k = 0; k + 1 < touches.count; ++k)
+      if (list[k].least < least_) least_ = list[k].least, at_ = k;
+    tell(source, n, point, all_round(touches) ? least_ : unknown);
+  }
+  bool all_round(const Touches& touches) const { return touches.list[0].n[1] == -1 && touches.list[touches.count - 1].n[1] == 1; }
+
+  /// The least of max(n . w1, n . w2) between n1 and n2, less than half a turn from each other.
+  void bound(Touch& first, const Touch& second) const {
+    first.least = std::numeric_limits<S>::infinity();
+    const auto consider = [&](const Flat& n) {
+      if (const S height = std::max(n.dot(first.w), n.dot(second.w)); height < first.least) first.least = height, first.towards = n;
+    };
+    const auto within = [&](const Flat& way) {
+      const S length = way.stableNorm();
+      if (!(length > 0)) return;
+      const Flat n = way / length;
+      if (cross(first.n, n) > 0 && cross(n, second.n) > 0) consider(n);
+    };
+    consider(first.n), consider(second.n);
+    const Flat chord = second.w - first.w;
+    within({chord[1], -chord[0]}), within(-first.w), within(-second.w);
+    first.least += bend_;
+  }
+
   Difference& difference_;
   Trace& trace_;
   const S floor_;
   const RevolvedPair<S>& pair_;
+  const S bend_;   ///< radius of the discs of the sharpest bends
   const V u_, e_;  ///< along the axes, and across them towards the origin
   Flat n_ = Flat::Zero();  ///< the normal
+  S least_ = 0;            ///< that a height is, by all bounds
+  int at_ = 0;             ///< where
   SatResult<3, S> result_;
+  SatWitnesses<3, S> witnesses_{V::Zero(), V::Zero()};
 };
 
 /// What SAT tells of two bodies of revolution. The points mean something where it ends as `overlapping`.
@@ -216,13 +341,13 @@ struct RevolutionDepth {
 
 /// Unset where they are none, their axes are not parallel within the tolerance (relative, of the depth), or their difference has no volume.
 template <class Difference, class Trace>
-std::optional<RevolutionDepth<typename Difference::S>> revolution_sat(Difference& difference, typename Difference::S tolerance, Trace& trace) {
+std::optional<RevolutionDepth<typename Difference::S>> revolution_sat(Difference& difference, typename Difference::S tolerance, int most, Trace& trace) {
   using S = typename Difference::S;
   const auto pair = RevolvedPair<S>::of(difference, tolerance);
   if (!pair) return std::nullopt;
   RevolutionSat<Difference, Trace> sat(difference, *pair, trace);
-  const SatResult<3, S> found = sat.run(tolerance);
-  return RevolutionDepth<S>{found, sat.witnesses(), pair->slack};
+  const SatResult<3, S> found = sat.run(tolerance, most);
+  return RevolutionDepth<S>{found, sat.witnesses(), sat.slack()};
 }
 
 }  // namespace gjkdbg

@@ -157,7 +157,7 @@ class PairSolver {
   /// False: no bodies of revolution about parallel axes, or not decided.
   bool revolution_decides() {
     if constexpr (D == 3)
-      if (const auto found = revolution_sat(difference_, static_cast<S>(settings_.tolerance), trace_); found && sat_answers(found->sat, false))
+      if (const auto found = revolution_sat(difference_, static_cast<S>(settings_.tolerance), settings_.max_iterations, trace_); found && sat_answers(found->sat, false))
         return sat_depth(found->sat, found->points, found->slack), true;
     return false;
   }

@@ -24,8 +24,11 @@ inline constexpr std::array<std::string_view, 7> phase_names{"gjk", "seed", "epa
 constexpr std::string_view word_of(Phase x) { return phase_names[static_cast<std::size_t>(x)]; }
 
 /// What a separating axis was taken from.
-enum class AxisSource { face_a, face_b, edge_pair };
-inline constexpr std::array<std::string_view, 3> axis_source_names{"face_a", "face_b", "edge_pair"};
+enum class AxisSource {
+  face_a, face_b, edge_pair,
+  outline  ///< of a section with an ellipse: a direction between two that are known
+};
+inline constexpr std::array<std::string_view, 4> axis_source_names{"face_a", "face_b", "edge_pair", "outline"};
 constexpr std::string_view word_of(AxisSource x) { return axis_source_names[static_cast<std::size_t>(x)]; }
 
 /// A face of the polytope: D vertices, counter-clockwise seen from outside; `normal` is a unit vector pointing
@@ -227,7 +230,7 @@ struct SatBegan {
 
 /// Along the unit axis `direction` (from body 0 towards body 1) the bodies are `distance` apart; negative: they overlap by
 /// that much. `vertex` is the support that says so. `lower_bound` is of the bodies' signed distance, by the widest axis so far; `upper_bound` is NaN
-/// (null in a file): axes give none.
+/// (null in a file), for axes give none, but of an outline with an ellipse (algo/revolution_sat.h).
 template <class V, class Store>
 struct AxisTested {
   static constexpr std::string_view kind = "axis_tested";

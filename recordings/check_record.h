@@ -101,7 +101,9 @@ class RecordCheck {
   std::set<int> standing_, chosen_;           ///< of these
   double height_ = 0;                         ///< the least along the normals chosen
   double section_slack_ = 0;                  ///< SAT's, of bodies of revolution: how much less the depth may be than the least along its axes
-  std::array<Number, 3> axes_{};              ///< SAT's, by source: how many may still come
+  bool curved_section_ = false;
+  double outlined_ = unknowable;              ///< and what bounds the distance from above, where an ellipse is among them
+  std::array<Number, 3> axes_{};              ///< SAT's, by source: how many may still come; of an outline any number
   std::optional<recorded::ClosedFormBegan> segments_;
   std::vector<Edge> pairs_;                   ///< of the bodies that a cast looks at
   Number cast_iteration_ = 0, ray_iteration_ = 0;  ///< so far

@@ -124,6 +124,10 @@ void RecordCheck::judge(const recorded::MprEnded& e) {
 /// the edges of a section count.
 void RecordCheck::count_axes(const recorded::SatBegan& e) {
   const auto& bodies = c_.recording.scene.scene.bodies;
+  section_slack_ = 0, curved_section_ = of_revolution(c_.recording) && std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
+    const auto found = revolved_body(body, c_.dimension);
+    return found && found->ellipse();
+  });
   if (!c_.has_supports || bodies.size() != 2) return;
   if (c_.recording.settings.name != MethodName::sat) return count_section_axes(e);
   const std::optional<Features> a = features_of(bodies[0].shape, c_.dimension), b = features_of(bodies[1].shape, c_.dimension);
@@ -139,7 +143,6 @@ void RecordCheck::count_axes(const recorded::SatBegan& e) {
 }
 
 void RecordCheck::count_section_axes(const recorded::SatBegan& e) {
-  section_slack_ = 0;
   if (!of_revolution(c_.recording)) return;
   const std::optional<Section> right = c_.recording.settings.scalar == Scalar::float_precision ? section_of<float>(c_.recording) : section_of<double>(c_.recording);
   if (!right) return contradiction("SAT begins, but the bodies are no bodies of revolution with parallel axes.");
@@ -150,14 +153,16 @@ void RecordCheck::count_section_axes(const recorded::SatBegan& e) {
 }
 
 /// A pair of edges of which one has no faces beside it is an axis both ways.
-void RecordCheck::judge(const recorded::SatBegan& e) { count_axes(e), methods_.insert(e.kind), axes_ = {e.faces_a, e.faces_b, 2 * Number{e.edge_pairs}}, plane_ = -unknown, nearest_projected_.reset(); }
+void RecordCheck::judge(const recorded::SatBegan& e) { count_axes(e), methods_.insert(e.kind), axes_ = {e.faces_a, e.faces_b, 2 * Number{e.edge_pairs}}, plane_ = -unknown, outlined_ = unknowable, nearest_projected_.reset(); }
 void RecordCheck::judge(const recorded::AxisTested& e) {
   leads_on(e.direction, axis_, "its support");
   if (e.vertex != newest_) contradiction("Vertex " + std::to_string(e.vertex) + " is said to be the farthest along the axis, but the last one asked for is " + std::to_string(newest_) + ".");
   plane_ = std::max(plane_, e.distance);
   bound("The lower", e.lower_bound, plane_);
-  bound("The upper", e.upper_bound, unknown);  // an axis knows none
-  if (--axes_[static_cast<std::size_t>(e.source)] < 0) contradiction("More axes of \"" + std::string(word_of(e.source)) + "\" are tested than there are said to be.");
+  outlined_ = e.upper_bound;
+  if (!curved_section_ && e.source == AxisSource::outline) return contradiction("An axis is said to be one of an outline with an ellipse, but there is none.");
+  if (!curved_section_) bound("The upper", e.upper_bound, unknown);  // an axis knows none
+  if (e.source != AxisSource::outline && --axes_[static_cast<std::size_t>(e.source)] < 0) contradiction("More axes of \"" + std::string(word_of(e.source)) + "\" are tested than there are said to be.");
 }
 void RecordCheck::judge(const recorded::SatEnded& e) {
   if (const std::string off = c_.not_unit(e.normal); !off.empty()) contradiction(off);
@@ -169,7 +174,7 @@ void RecordCheck::judge(const recorded::SatEnded& e) {
   if (known && !wider && differ(e.distance, plane_) && differ(e.distance, nearest_projected_.value_or(plane_)))
     contradiction("SAT ends with a distance of " + text_of(e.distance) + ", but the steps before give " + text_of(nearest_projected_.value_or(plane_)) + ".");
   lower_ = upper_ = unknowable;
-  if (e.status == SatStatus::overlapping && c_.recording.scene.scene.query > Query::distance && c_.recording.settings.penetration != Penetration::none) lower_ = e.distance, upper_ = e.distance + section_slack_;
+  if (e.status == SatStatus::overlapping && c_.recording.scene.scene.query > Query::distance && c_.recording.settings.penetration != Penetration::none) lower_ = e.distance, upper_ = (std::isfinite(outlined_) ? outlined_ : e.distance) + section_slack_;
   if (e.status == SatStatus::separated && nearest_projected_) lower_ = projected_bounds_.first, upper_ = projected_bounds_.second;
 }
 

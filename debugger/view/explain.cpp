@@ -61,6 +61,7 @@ struct Explain : ExplainMethods {
   bool rounded() const { return recording.settings.name != MethodName::gjk_boolean && gjkdbg::rounded(recording.scene.scene); }  ///< whether the method goes by cores
   const char* bodies() const { return rounded() ? "cores" : "bodies"; }
 
+  bool sat_follows() const { return frame.step + 1 < recording.events.size() && std::holds_alternative<recorded::SatBegan>(recording.events[frame.step + 1]); }
   /// GJK sees the cores alone.
   std::string less_the_radii(const recorded::GjkEnded& e) const {
     if (!rounded() || !frame.closest) return "";
@@ -99,7 +100,7 @@ struct Explain : ExplainMethods {
       case GjkStatus::separated: return "The plane of the last support has all of " + difference() + " on its far side, so the bodies are apart. Only yes or no was asked, and this is the proof.";
       case GjkStatus::within_radius: return "The cores are apart, but nearer than the radii around them: the bodies overlap, and no more was asked.";
       case GjkStatus::enclosed: return "The simplex encloses the origin: some point of body " + a() + " is also a point of body " + b() + ". The " + bodies() + " overlap.";
-      case GjkStatus::touching: return std::string("The origin lies on the simplex, within rounding: on a vertex, an edge or a face. ") + (frame.step + 1 == recording.events.size() ? "The bodies touch or overlap, and no more was asked." : "Whether this is touch or overlap, EPA will tell.");
+      case GjkStatus::touching: return std::string("The origin lies on the simplex, within rounding: on a vertex, an edge or a face. ") + (frame.step + 1 == recording.events.size() ? "The bodies touch or overlap, and no more was asked." : std::string("Whether this is touch or overlap, ") + (sat_follows() ? "the next steps" : "EPA") + " will tell.");
       case GjkStatus::stalled:
         return "|v| no longer falls: the precision is used up, or the method's own rule stops it. The bounds say how much is known." + asked_next();
       case GjkStatus::iteration_limit: return "The iteration limit is reached before the bounds met. This is no answer; the bounds say how much is known.";

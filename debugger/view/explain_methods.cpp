@@ -36,7 +36,20 @@ Explanation ExplainMethods::operator()(const recorded::MprEnded& e) const {
   return {title, {}};
 }
 
+namespace {
+
+/// "2 edges of A's"; "none of B's".
+std::string count_of(int edges, const std::string& body) { return edges == 0 ? "none of " + body + "'s" : edges == 1 ? "an edge of " + body + "'s" : std::to_string(edges) + " edges of " + body + "'s"; }
+
+}  // namespace
+
 Explanation ExplainMethods::operator()(const recorded::SatBegan& e) const {
+  if (of_an_outline(recording)) {
+    const std::string why = "Both bodies are bodies of revolution, and their axes are parallel. So " + difference() + " is one as well, and the way out of it lies in the plane through its axis and the origin. ";
+    const std::string instead = " EPA would put face after face around a circle of points that are as near as one another.";
+    if (e.faces_a + e.faces_b == 0) return {"An outline, instead of EPA", why + "There its outline is a curve, which is looked along until no direction can lead out sooner." + instead};
+    return {"An outline, instead of EPA", why + "There its outline has " + count_of(e.faces_a, a()) + " and " + count_of(e.faces_b, b()) + " that may be nearest." + instead};
+  }
   if (recording.scene.scene.dimension == 2)
     return {"SAT begins", "Two convex polygons are apart exactly when the normal of an edge separates them: " + std::to_string(e.faces_a) + " normals of " + a() + "'s edges and " + std::to_string(e.faces_b) + " of " + b() + "'s." + (e.faces_a == 2 && e.faces_b == 2 ? " Opposite edges of a box share one." : "")};
   return {"SAT begins", "Two polytopes are apart exactly when the normal of a face or the cross product of two edges separates them: " + std::to_string(e.faces_a) + " faces of " + a() + ", " + std::to_string(e.faces_b) +
@@ -46,6 +59,12 @@ Explanation ExplainMethods::operator()(const recorded::SatBegan& e) const {
 
 Explanation ExplainMethods::operator()(const recorded::AxisTested& e) const {
   const std::string normal = (facet() == "edge" ? "the normal of an " : "the normal of a ") + facet() + " of ", from[] = {normal + a(), normal + b(), "across an edge of each"};
+  if (of_an_outline(recording)) {
+    const std::string of = e.source == AxisSource::outline ? ", between directions looked along before" : ", the normal of an edge of the outline that is " + (e.source == AxisSource::face_a ? a() : b()) + "'s";
+    const std::string room = std::isfinite(e.upper_bound) && e.upper_bound > e.lower_bound ? " Nowhere on the outline is it less than " + short_number(-e.upper_bound) + "." : "";
+    return {"A way out", "Along " + short_vector(e.direction) + of + ", the bodies overlap by " + short_number(-e.distance) +
+                             (e.lower_bound <= e.distance ? ", the least so far: the depth is no more than that." : ", more than along the best one so far.") + room};
+  }
   const std::string axis = "Along " + short_vector(e.direction) + ", " + from[static_cast<std::size_t>(e.source)] + ", ";
   if (e.distance > 0) return {"An axis with a gap", axis + "there is a gap of " + short_number(e.distance) + " between the bodies: this axis separates them, and they are at least that far apart."};
   return {"An axis without a gap", axis + "the bodies overlap by " + short_number(-e.distance) + (e.lower_bound <= e.distance ? ", the least so far: the depth is no more than that." : ", more than along the best axis so far.")};
@@ -77,6 +96,9 @@ bool ExplainMethods::gjk_follows() const { return frame.step + 1 < recording.eve
 
 Explanation ExplainMethods::operator()(const recorded::SatEnded& e) const {
   const std::string title = "SAT ends: " + std::string(word_of(e.status));
+  if (of_an_outline(recording) && e.status == SatStatus::overlapping)
+    return {title, "The outline is " + short_number(-e.distance) + " away, along " + short_vector(e.normal) + ". No direction leads out sooner, within the plane or beside it: that is the depth."};
+  if (of_an_outline(recording)) return {title, "What is left is within rounding, or the axes are not parallel enough for the tolerance. EPA goes on."};
   if (e.status == SatStatus::separated && frame.step > 0 && std::holds_alternative<recorded::PointsProjected>(recording.events[frame.step - 1]))
     return {title, "An axis separates the bodies (their cores), and " + std::string(boxes() ? "the nearest points are known: " : "the points projected last are each the nearest to the other: ") + short_number(e.distance) + " along " + short_vector(e.normal) + " is the distance."};
   if (e.status == SatStatus::separated)

@@ -73,6 +73,8 @@ bool of_two_boxes(const Recording& recording, std::size_t step) {
   return false;
 }
 
+bool of_an_outline(const Recording& recording) { return recording.settings.name != MethodName::sat; }
+
 namespace {
 
 struct Summarise {
@@ -102,7 +104,10 @@ struct Summarise {
   std::string operator()(const recorded::MprEnded& e) const {
     return std::string(word_of(e.status)) + (e.status == MprStatus::separated ? "  gap " + short_number(-e.depth) : e.status == MprStatus::overlapping ? "" : "  depth " + short_number(e.depth));
   }
-  std::string operator()(const recorded::SatBegan& e) const { return std::to_string(e.faces_a) + " + " + std::to_string(e.faces_b) + " faces, " + std::to_string(e.edge_pairs) + " edge pairs"; }
+  std::string operator()(const recorded::SatBegan& e) const {
+    if (of_an_outline(recording)) return std::to_string(e.faces_a) + " + " + std::to_string(e.faces_b) + " edges of the outline";
+    return std::to_string(e.faces_a) + " + " + std::to_string(e.faces_b) + " faces, " + std::to_string(e.edge_pairs) + " edge pairs";
+  }
   std::string operator()(const recorded::AxisTested& e) const { return (e.distance > 0 ? "gap " : "overlap ") + short_number(std::abs(e.distance)); }
   std::string operator()(const recorded::PointsProjected& e) const { return "|a - b| = " + short_number(e.closest.norm()); }
   std::string operator()(const recorded::SatEnded& e) const {

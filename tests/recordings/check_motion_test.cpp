@@ -219,7 +219,7 @@ void expect_honest(const SceneFile& scene, MethodName method, int limit) {
 
 TEST(CheckMotion, AnOverlapWhoseWayOutIsNotKnownIsClean) {
   const SceneFile cylinders = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "cast", "bodies": [
-    {"shape": {"type": "cylinder", "radius": 1, "half_height": 2}, "velocity": [1, 0, 0]}, {"shape": {"type": "cylinder", "radius": 1, "half_height": 2}}]})", {});
+    {"shape": {"type": "cylinder", "radius": 1, "half_height": 2}, "velocity": [1, 0, 0]}, {"shape": {"type": "cylinder", "radius": 1, "half_height": 2}, "pose": {"rotation": {"axis": [0, 0, 1], "angle": 0.001}}}]})", {});
   const SceneFile ellipses = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 2, "query": "cast", "bodies": [
     {"shape": {"type": "ellipse", "radii": [1, 0.5]}, "velocity": [1, 0]}, {"shape": {"type": "ellipse", "radii": [0.7, 1]}, "pose": {"position": [0.3, 0.2]}}]})", {});
   for (const MethodName method : {MethodName::conservative_advancement, MethodName::root_finding, MethodName::ray_cast}) {
