@@ -61,6 +61,34 @@ TEST_F(Newcomer, GoesThroughTheAxesOfSat) {
   EXPECT_TRUE(kind_at<recorded::AxisTested>(session, session.step())) << session.step();
 }
 
+/// Where two bodies of revolution are looked at in one plane EPA is not what the words are about, nor faces in space.
+TEST_F(Newcomer, IsToldWhyAnOutlineIsLookedAt) {
+  for (const char* name : {"revolution-cone-in-cylinder", "revolution-spheroids"}) {
+    app.open_gallery(name);
+    int axes = 0;
+    for (std::size_t step = 0; step < session.count(); ++step) {
+      session.go_to(step);
+      const std::string title = pseudo_code(session.recording(), step).title;
+      const Explanation told = explain(session.recording(), session.frame());
+      const auto says = [&](const char* words) { return told.text.find(words) != std::string::npos; };
+      if (kind_at<recorded::GjkEnded>(session, step)) {
+        EXPECT_FALSE(says("EPA")) << told.text;
+      }
+      if (kind_at<recorded::SatBegan>(session, step)) {
+        EXPECT_TRUE(says("their axes are parallel")) << told.text;
+      }
+      if (kind_at<recorded::SatEnded>(session, step)) {
+        EXPECT_TRUE(says("No direction leads out sooner")) << told.text;
+      }
+      if (!kind_at<recorded::AxisTested>(session, step)) continue;
+      EXPECT_EQ(told.title, "A way out");
+      EXPECT_EQ(title, "Depth of bodies of revolution");
+      ++axes;
+    }
+    EXPECT_GE(axes, 4) << name;
+  }
+}
+
 TEST_F(Newcomer, SeesTheListThatIsSearched) {
   app.open_find_bar();
   host.frame(), host.frame(), host.frame();

@@ -83,12 +83,17 @@ void overlaps(std::vector<AtlasFamily>& out, bool quick) {
   for (const double d : powers(1e-12, 1, quick)) spheres.cases.push_back({d, pair(sphere(2, vec(1, 2, 3)), sphere(1.5, vec(1 + d, 2, 3))), (1 + d - 1) - 3.5});
   AtlasFamily deep{"C5", "ellipsoids, deep, from one centre on: the polytope closes in on a smooth surface", {}};
   for (const double d : {0.0, 1e-12, 1e-6, 0.1, 0.3, 0.5, 0.9, 1.3}) deep.cases.push_back({d, pair(ellipsoid(vec(0.5, 2, 3), vec(0, 0, 0)), ellipsoid(vec(1, 2, 2), vec(d, 0, 0))), d - 1.5});
+  AtlasFamily ring{"C6", "a cone and a cylinder deep in it, on one axis and beside it: a whole circle of points is nearest, or nearly", {}};
+  std::vector<double> beside = powers(1e-16, 1e-1, quick);
+  beside.insert(beside.begin(), 0);
+  for (const double d : beside)  // across the cone's side, along (2, 1) / sqrt 5, the cone reaches 1 / sqrt 5, and the cylinder the other way 2 / sqrt 5
+    ring.cases.push_back({d, pair({"", {Cone{1, 1, 2}, 0}, identity_pose(3)}, {"", {Cylinder{0.5, 1, 2}, 0}, identity_pose(3)}), (2 * d - 3) / std::sqrt(5.0)}), ring.cases.back().scene.bodies[1].pose.position = vec(d, 0, 0);
   AtlasFamily shallow{"E1", "stacked boxes, a little deep: the origin lies on a face of the first tetrahedron and the contact is dropped", {}};
   for (const double d : powers(1e-14, 1e-1, quick)) {
     const double z = 0.4 - d;
     shallow.cases.push_back({d, pair(cube(vec(0, 0, 0), 0.2), cube(vec(0, 0, z), 0.2)), z - 0.4});
   }
-  out.push_back(stacked), out.push_back(same), out.push_back(spheres), out.push_back(deep), out.push_back(shallow);
+  out.push_back(stacked), out.push_back(same), out.push_back(spheres), out.push_back(deep), out.push_back(ring), out.push_back(shallow);
 }
 
 /// Triangles tip to tip in the plane, wedges edge to edge in space.
