@@ -60,8 +60,8 @@ Explanation ExplainMethods::operator()(const recorded::SatBegan& e) const {
 Explanation ExplainMethods::operator()(const recorded::AxisTested& e) const {
   const std::string normal = (facet() == "edge" ? "the normal of an " : "the normal of a ") + facet() + " of ", from[] = {normal + a(), normal + b(), "across an edge of each"};
   if (of_an_outline(recording)) {
-    const std::string of = e.source == AxisSource::outline ? ", between directions looked along before" : ", the normal of an edge of the outline that is " + (e.source == AxisSource::face_a ? a() : b()) + "'s";
-    const std::string room = std::isfinite(e.upper_bound) && e.upper_bound > e.lower_bound ? " Nowhere on the outline is it less than " + short_number(-e.upper_bound) + "." : "";
+    const std::string of = e.source == AxisSource::outline ? ", across the outline" : ", the normal of an edge of the outline that is " + (e.source == AxisSource::face_a ? a() : b()) + "'s";
+    const std::string room = e.upper_bound < 0 && e.upper_bound > e.lower_bound ? " Nowhere on the outline is it less than " + short_number(-e.upper_bound) + "." : "";
     return {"A way out", "Along " + short_vector(e.direction) + of + ", the bodies overlap by " + short_number(-e.distance) +
                              (e.lower_bound <= e.distance ? ", the least so far: the depth is no more than that." : ", more than along the best one so far.") + room};
   }
