@@ -46,11 +46,11 @@ struct Revolved {
   Vector<3, S> axis;    ///< unit, from bottom to top; zero where every one will do: a point, a ball
   Vector<3, S> middle;  ///< of the axis between bottom and top, in the frame of `axis`
   S top = 0, bottom = 0, half = 0;  ///< radii of both ends, half the height
-  S across = 0, along = 0;          ///< an ellipse's half axes
+  S across = 0, along = 0;          ///< an ellipse's half axes: none is zero, or both are
 
   S widest() const { return std::max({top, bottom, across}); }
   S highest() const { return half + along; }
-  bool ellipse() const { return across > 0 || along > 0; }
+  bool ellipse() const { return across > 0; }
   S sharpest() const { return ellipse() ? std::min(across, along) * (std::min(across, along) / std::max(across, along)) : S(0); }  ///< the least radius of its curve
   /// The same in another frame.
   Revolved placed(const Matrix<3, S>& rotation, const Vector<3, S>& position) const { return {rotation * axis, rotation * middle + position, top, bottom, half, across, along}; }
@@ -69,7 +69,11 @@ std::optional<Revolved<S>> revolved(const Core& core) {
   if (const auto* x = std::get_if<EllipsoidCore<3, S>>(&core)) {
     const V& r = x->radii;
     for (int k = 0; k < 3; ++k)
-      if (const S across = r[(k + 1) % 3]; across == r[(k + 2) % 3]) return Revolved<S>{across == r[k] ? V(V::Zero()) : V(V::Unit(k)), V::Zero(), 0, 0, 0, across, r[k]};
+      if (const S across = r[(k + 1) % 3], along = r[k]; across == r[(k + 2) % 3]) {
+        const V axis = across == along ? V(V::Zero()) : V(V::Unit(k));
+        if (across > 0 && along > 0) return Revolved<S>{axis, V::Zero(), 0, 0, 0, across, along};
+        return Revolved<S>{axis, V::Zero(), across, across, along};  // a disc, a segment, a point
+      }
     return std::nullopt;
   }
   const auto* few = std::get_if<VerticesCore<3, S>>(&core);
@@ -108,10 +112,11 @@ struct RevolvedPair {
       ++(source == AxisSource::face_a ? all.of_a : all.of_b);
     };
     const S rise = 2 * a.half, taper = a.bottom - a.top, rise_b = 2 * b.half, taper_b = b.top - b.bottom;  // -B stands on its head
-    add(AxisSource::face_a, a.half > 0, rise, taper);
+    const bool side_a = rise > 0 || taper != 0, side_b = rise_b > 0 || taper_b != 0, same = rise * taper_b == taper * rise_b && rise * rise_b + taper * taper_b > 0;
+    add(AxisSource::face_a, side_a, rise, taper);
     add(AxisSource::face_a, a.top > 0, 0, 1);
     add(AxisSource::face_a, a.bottom > 0, 0, -1);
-    add(AxisSource::face_b, b.half > 0 && !(a.half > 0 && rise * taper_b == taper * rise_b), rise_b, taper_b);
+    add(AxisSource::face_b, side_b && !same, rise_b, taper_b);
     add(AxisSource::face_b, b.bottom > 0 && !(a.top > 0), 0, 1);
     add(AxisSource::face_b, b.top > 0 && !(a.bottom > 0), 0, -1);
     return all;
@@ -226,7 +231,9 @@ class RevolutionSat {
     const auto [low_b, high_b] = edge(b, -n_, along);
     const S from_a = across_n.dot(b.middle - a.middle);
     S t = (std::max(low_a, low_b + from_a) + std::min(high_a, high_b + from_a)) / 2;
-    if (!a.ellipse()) t = std::clamp(t, low_a, high_a);  // beside a corner there is nothing, beside an ellipse's farthest point nearly as much
+    // Beside a corner there is nothing; of two curves the one that bends less reaches nearly as far beside its farthest point.
+    if (a.ellipse() && b.ellipse()) t = (low_a * bend_at(b, n_) + (low_b + from_a) * bend_at(a, n_)) / (bend_at(a, n_) + bend_at(b, n_));
+    if (!a.ellipse()) t = std::clamp(t, low_a, high_a);
     if (!b.ellipse()) t = std::clamp(t, low_b + from_a, high_b + from_a);
     const V nearest = a.middle + result_.normal * highest(a, n_) + across_n * t;
     return {nearest, nearest - result_.normal * result_.depth};
@@ -237,7 +244,12 @@ class RevolutionSat {
   static Flat of_ellipse(const Revolved<S>& r, const Flat& n, const Flat& beside) {
     const Flat stretched(r.across * n[0], r.along * n[1]);
     const S height = stretched.norm();
-    return {height, height > 0 ? beside.dot(Flat(r.across * stretched[0], r.along * stretched[1])) / height : S(0)};
+    return {height, beside.dot(Flat(r.across * stretched[0], r.along * stretched[1])) / height};
+  }
+  /// The radius of its curve there: (across along)^2 / height^3.
+  static S bend_at(const Revolved<S>& r, const Flat& n) {
+    const S height = of_ellipse(r, n, n)[0], p = r.across / height, q = r.along / height;
+    return p * q * q * r.across;
   }
   static S highest(const Revolved<S>& r, const Flat& n) {
     if (r.ellipse()) return of_ellipse(r, n, n)[0];
@@ -247,7 +259,10 @@ class RevolutionSat {
   }
   /// Where the corners that are the farthest along n, but for rounding, lie along an edge across it.
   std::pair<S, S> edge(const Revolved<S>& r, const Flat& n, const Flat& along) const {
-    if (const S at = of_ellipse(r, n, along)[1]; r.ellipse()) return {at, at};
+    if (r.ellipse()) {
+      const S at = of_ellipse(r, n, along)[1];
+      return {at, at};
+    }
     const S bar = highest(r, n) - floor_;
     S low = std::numeric_limits<S>::infinity(), high = -low;
     for (const Flat& corner : corners(r))

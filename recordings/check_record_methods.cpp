@@ -25,7 +25,7 @@ std::optional<Revolved<double>> revolved_body(const Body& body, int dimension) {
 /// Of these SAT tells the depth where their axes are parallel, whatever the method.
 bool of_revolution(const Recording& recording) {
   const Scene& scene = recording.scene.scene;
-  return scene.query > Query::distance && recording.settings.penetration == Penetration::epa &&
+  return scene.query > Query::distance && recording.settings.penetration != Penetration::none &&
          std::count_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) { return revolved_body(body, scene.dimension).has_value(); }) >= 2;
 }
 
