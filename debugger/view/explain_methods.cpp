@@ -1,5 +1,6 @@
 #include "debugger/view/explain_methods.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gjkdbg {
@@ -45,10 +46,11 @@ std::string count_of(int edges, const std::string& body) { return edges == 0 ? "
 
 Explanation ExplainMethods::operator()(const recorded::SatBegan& e) const {
   if (of_an_outline(recording)) {
-    const std::string why = "Both bodies are bodies of revolution, and their axes are parallel. So " + difference() + " is one as well, and the way out of it lies in the plane through its axis and the origin. ";
-    const std::string instead = " EPA would put face after face around a circle of points that are as near as one another.";
-    if (e.faces_a + e.faces_b == 0) return {"An outline, instead of EPA", why + "There its outline is a curve, which is looked along until no direction can lead out sooner." + instead};
-    return {"An outline, instead of EPA", why + "There its outline has " + count_of(e.faces_a, a()) + " and " + count_of(e.faces_b, b()) + " that may be nearest." + instead};
+    const auto any = [&](auto&& kind) { return std::any_of(recording.scene.scene.bodies.begin(), recording.scene.scene.bodies.end(), [&](const Body& body) { return kind(body.shape.geometry); }); };
+    const bool ball = any([](const auto& g) { return std::holds_alternative<Sphere>(g); }), curve = any([](const auto& g) { return std::holds_alternative<Ellipsoid>(g); });
+    const std::string why = std::string("Both bodies are bodies of revolution, and their axes are parallel") + (ball ? " (of a ball every one will do)" : "") + ". So " + difference() + " is one as well, and the way out of it lies in the plane through its axis and the origin. ";
+    const std::string edges = e.faces_a + e.faces_b == 0 ? "is a curve" : "has " + count_of(e.faces_a, a()) + " and " + count_of(e.faces_b, b()) + (curve ? ", and is a curve besides" : " that may be nearest");
+    return {"An outline, instead of EPA", why + "There its outline " + edges + (curve ? ": it is looked along until no direction can lead out sooner." : ".") + " EPA would put face after face around a circle of points that are as near as one another."};
   }
   if (recording.scene.scene.dimension == 2)
     return {"SAT begins", "Two convex polygons are apart exactly when the normal of an edge separates them: " + std::to_string(e.faces_a) + " normals of " + a() + "'s edges and " + std::to_string(e.faces_b) + " of " + b() + "'s." + (e.faces_a == 2 && e.faces_b == 2 ? " Opposite edges of a box share one." : "")};
