@@ -73,6 +73,7 @@ void Convex<D, S>::set(const Capsule& capsule, double scale) {
 template <int D, class S>
 void Convex<D, S>::set(const Ellipsoid& ellipsoid, double scale) {
   const Vector<D, double> radii = ellipsoid.radii;
+  if (radii.minCoeff() == radii.maxCoeff()) return set(Sphere{radii[0]}, scale);  // however it is written, a ball is a centre and a radius
   core_ = EllipsoidCore<D, S>{(radii * scale).template cast<S>()};
   extent_ = radii.maxCoeff() * scale;
   polytope_ = false, vertices_ = 0;

@@ -214,6 +214,29 @@ TEST(RevolutionSat, AnOutlineThatIsNotDone) {
   EXPECT_EQ(run_recorded(scene).result.status, "overlapping");
 }
 
+/// An ellipsoid or ellipse of equal radii is a centre and a radius: as a sphere or circle it gives the same numbers, deep with one centre and apart.
+TEST(RevolutionSat, ABallHoweverItIsWritten) {
+  for (const int dimension : {2, 3})
+    for (const double away : {0.0, 0.3, 1.5, 2.5})
+      for (const bool box : {false, true}) {
+        Scene round, written;
+        for (Scene* scene : {&round, &written}) {
+          scene->dimension = dimension, scene->query = Query::penetration;
+          const Shape ball = scene == &round ? Shape{Sphere{1}, 0} : Shape{Ellipsoid{AnyVector::Ones(dimension)}, 0};
+          const AnyVector half = AnyVector::Constant(dimension, 0.5);
+          scene->bodies = {{"A", ball, identity_pose(dimension)}, {"B", box ? Shape{Box{-half, half}, 0} : ball, identity_pose(dimension)}};
+          scene->bodies[1].pose.position[0] = away;
+        }
+        Method method;
+        method.tolerance = 1e-12;
+        const Result x = solve(round, resolve_settings(method, round)), y = solve(written, resolve_settings(method, written));
+        EXPECT_EQ(*x.signed_distance, *y.signed_distance) << dimension << "D, " << away;
+        EXPECT_EQ(*x.witness_a, *y.witness_a);
+        EXPECT_EQ(x.support_calls, y.support_calls);
+        EXPECT_TRUE(check(run_recorded(written)).empty());
+      }
+}
+
 /// Discs in one plane, capsules and needles on one line: their difference has no volume, and EPA knows what to say of that. Nothing but rounding deep: the same.
 TEST(RevolutionSat, WithoutVolumeEpaIsAsked) {
   for (const auto& [a, b, depth] : {std::tuple<Shape, Shape, double>{{Cylinder{1, 0, 1}, 0}, {Cylinder{0.5, 0, 1}, 0}, 0}, {{Capsule{0.5, 1, 1}, 0}, {Capsule{0.25, 1, 1}, 0}, 0.75}, {{Cylinder{0, 1, 1}, 0.25}, {Sphere{1}, 0}, 1.25}}) {
