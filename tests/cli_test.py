@@ -545,6 +545,12 @@ class Program(unittest.TestCase):
         self.assertRegex(result.stdout, r"\ngate: \d\d cells compared, none worse than kept or not measured\n$")
         one = json.loads((self.path / "one/atlas.json").read_text())
         self.assertEqual({c["method"] for f in one["families"] for c in f["cells"]}, {"Johnson", "Johnson, float"})
+        # Chosen families.
+        result = run("atlas", "--quick", "--method", "default", "--families", "C6,K1", "-o", self.path / "two", "--gate", kept)
+        self.assertRegex(result.stdout, r"\ngate: 4 cells compared, none worse than kept or not measured\n$")
+        self.assertEqual([f["name"] for f in json.loads((self.path / "two/atlas.json").read_text())["families"]], ["C6", "K1"])
+        self.refused(run("atlas", "--families", "C66", "-o", self.path / "none"), "C66")
+        self.assertFalse((self.path / "none").exists())
         # Drawn, with rows in words and in colours, whatever the folder's name is and however few columns there are.
         self.assertEqual(run("atlas", "--quick", "--method", "default", "-o", self.path / "it's\nalone").returncode, 0)
         drawn = (self.path / "it's\nalone/atlas.svg").read_text()

@@ -24,14 +24,15 @@ namespace {
 struct AtlasCommand {
   bool quick = false;
   std::string output = "atlas", gate;
-  std::vector<std::string> methods;
+  std::vector<std::string> methods, families;
 
   int run() const {
     const std::vector<Variant> columns = chosen(variants(true), methods);
-    const Kept kept = gate.empty() ? Kept() : read_gate(gate, columns);
+    const std::vector<AtlasFamily> rows = atlas_families(quick, families);
+    const Kept kept = gate.empty() ? Kept() : read_gate(gate, columns, rows, !families.empty());
     make_folder(output);
     LabProgress progress;
-    const Atlas atlas = make_atlas(quick, columns, std::ref(progress));
+    const Atlas atlas = make_atlas(rows, columns, std::ref(progress));
     const std::filesystem::path folder(output);
     write_output((folder / "atlas.csv").string(), atlas_csv(atlas));
     write_output((folder / "atlas.json").string(), atlas_json(atlas));
@@ -58,8 +59,8 @@ struct AtlasCommand {
   /// Verdicts by family and method.
   using Kept = std::map<std::pair<std::string, std::string>, Verdict>;
 
-  /// Of the methods that will be measured.
-  static Kept read_gate(const std::string& file, const std::vector<Variant>& columns) {
+  /// Of what will be measured: of the methods, and where families are chosen of these.
+  static Kept read_gate(const std::string& file, const std::vector<Variant>& columns, const std::vector<AtlasFamily>& rows, bool only_these) {
     const std::string text = read_text_file(file);
     Kept kept;
     const auto each = [](const Json& json, const Place& place, const auto& read) {
@@ -79,10 +80,11 @@ struct AtlasCommand {
         each(family.required("cells"), at_cells, [&](ObjectReader cell, const Place& at) {
           const std::string method = read_string(cell.required("method"), Place(at, "method"));
           const auto verdict = static_cast<Verdict>(read_enum(cell.required("verdict"), Place(at, "verdict"), verdict_names));
-          if (std::any_of(columns.begin(), columns.end(), [&](const Variant& v) { return v.name == method; })) kept[{name, method}] = verdict;
+          const bool row = !only_these || std::any_of(rows.begin(), rows.end(), [&](const AtlasFamily& f) { return f.name == name; });
+          if (row && std::any_of(columns.begin(), columns.end(), [&](const Variant& v) { return v.name == method; })) kept[{name, method}] = verdict;
         });
       });
-      if (kept.empty()) reject(at_families, "wrong-count", "has no cell of these methods: nothing to compare with");
+      if (kept.empty()) reject(at_families, "wrong-count", "has no cell of these families and methods: nothing to compare with");
     } catch (const Error& e) {
       throw e.in(file);
     }
@@ -117,6 +119,7 @@ void add_atlas(CLI::App& app, Status& status) {
   CLI::App* command = app.add_subcommand("atlas", "Stability where methods fail: heat map, table, JSON into a folder");
   command->add_flag("--quick", options->quick, "fewer cases");
   command->add_option("--methods,--method", options->methods, "only methods whose names begin so: default, johnson, sat, …; an unknown name lists all");
+  command->add_option("--families", options->families, "only these, by their letters (K1, C6, …), separated by commas; an unknown one lists all")->delimiter(',');
   command->add_option("-o,--output", options->output, "folder (atlas)")->check(named());
   command->add_option("--gate", options->gate, "a kept atlas.json: exit status 1 when any cell is worse, or was not measured")->check(named());
   command->callback([options, &status] { status = options->run(); });

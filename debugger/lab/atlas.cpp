@@ -188,8 +188,8 @@ AtlasCell sweep(const AtlasFamily& family, const Variant& variant) {
 
 }  // namespace
 
-Atlas make_atlas(bool quick, const std::vector<Variant>& methods, const std::function<bool(double)>& progress) {
-  Atlas atlas{atlas_families(quick), methods, {}};
+Atlas make_atlas(std::vector<AtlasFamily> families, const std::vector<Variant>& methods, const std::function<bool(double)>& progress) {
+  Atlas atlas{std::move(families), methods, {}};
   for (std::size_t i = 0; i < atlas.families.size(); ++i) {
     std::vector<AtlasCell> row;
     for (const Variant& variant : atlas.methods) row.push_back(sweep(atlas.families[i], variant));

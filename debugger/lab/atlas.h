@@ -45,7 +45,8 @@ struct AtlasFamily {
   std::string name, what;  ///< `what`: also why methods fail here
   std::vector<AtlasCase> cases;
 };
-std::vector<AtlasFamily> atlas_families(bool quick);
+/// By name; none: all. Throws Error where there is no family of a name.
+std::vector<AtlasFamily> atlas_families(bool quick, const std::vector<std::string>& names = {});
 /// T1 and T2: bodies in motion that graze, or just miss.
 std::vector<AtlasFamily> moving_families(bool quick);
 
@@ -63,8 +64,8 @@ struct Atlas {
   std::vector<Variant> methods;
   std::vector<std::vector<AtlasCell>> cells;  ///< [family][method]; fewer families when interrupted
 };
-/// Of these methods; `progress(share done)` returns false to stop.
-Atlas make_atlas(bool quick, const std::vector<Variant>& methods, const std::function<bool(double)>& progress);
+/// Of these families and methods; `progress(share done)` returns false to stop.
+Atlas make_atlas(std::vector<AtlasFamily> families, const std::vector<Variant>& methods, const std::function<bool(double)>& progress);
 
 std::string atlas_csv(const Atlas& atlas);
 std::string atlas_json(const Atlas& atlas);

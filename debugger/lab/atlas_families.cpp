@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "debugger/lab/atlas.h"
+#include "shapes/error.h"
 
 namespace gjkdbg {
 namespace {
@@ -283,7 +284,7 @@ void retold(std::vector<AtlasFamily>& out, bool) {
 
 }  // namespace
 
-std::vector<AtlasFamily> atlas_families(bool quick) {
+std::vector<AtlasFamily> atlas_families(bool quick, const std::vector<std::string>& names) {
   std::vector<AtlasFamily> families;
   kisses(families, quick);
   overlaps(families, quick);
@@ -296,6 +297,12 @@ std::vector<AtlasFamily> atlas_families(bool quick) {
   retold(families, quick);
   for (AtlasFamily& family : moving_families(quick)) families.push_back(std::move(family));
   std::stable_sort(families.begin(), families.end(), [](const AtlasFamily& a, const AtlasFamily& b) { return a.name < b.name; });
+  if (names.empty()) return families;
+  std::string all;
+  for (const AtlasFamily& family : families) all += (all.empty() ? "" : ", ") + family.name;
+  for (const std::string& name : names)
+    if (std::none_of(families.begin(), families.end(), [&](const AtlasFamily& family) { return family.name == name; })) throw Error("no-such-family", "no family has this name; there are " + all, name);
+  std::erase_if(families, [&](const AtlasFamily& family) { return std::find(names.begin(), names.end(), family.name) == names.end(); });
   return families;
 }
 
