@@ -159,7 +159,7 @@ class RevolutionSat {
   RevolutionSat(Difference& difference, const RevolvedPair<S>& pair, Trace& trace)
       : difference_(difference), trace_(trace), floor_(difference.rounding_floor()), pair_(pair), bend_(pair.a.sharpest() + pair.b.sharpest()), u_(pair.a.axis), e_(across(u_, pair.b.middle - pair.a.middle)) {}
 
-  /// `overlapping` where the depth is known: within rounding, or this tolerance, a part of it. Of ellipses in no more than `most` steps.
+  /// `overlapping` where the depth is known: within rounding, or this tolerance, a part of it. With an ellipse in no more than `most` steps, or three more than the trapezoid has edges.
   const SatResult<3, S>& run(S tolerance, int most) {
     const auto normals = pair_.normals();
     trace_(SatBegan<V, Viewed>{normals.of_a, normals.of_b, 0});
@@ -288,7 +288,7 @@ class RevolutionSat {
     Touches touches;
     for (int i = 0; i < normals.of_a + normals.of_b; ++i) add(touches, normals.list[i].source, normals.list[i].n.stableNormalized());
     for (const Flat& n : {Flat(0, -1), Flat(0, 1), Flat(1, 0)}) add(touches, AxisSource::outline, n);
-    const auto proven = [&] { return result_.depth - least_ <= std::max(floor_, tolerance * result_.depth); };
+    const auto proven = [&] { return result_.depth - least_ <= std::max(floor_, tolerance * result_.depth - pair_.slack); };
     for (int before = 0; !proven() && touches.count > before && touches.count < room && result_.iterations < most;) {
       before = touches.count;
       const Flat next = touches.list[at_].towards;  // which moves on
@@ -354,7 +354,7 @@ struct RevolutionDepth {
   S slack;  ///< how much less the depth may be than the least height
 };
 
-/// Unset where they are none, their axes are not parallel within the tolerance (relative, of the depth), or their difference has no volume.
+/// Unset where they are none, their axes are not parallel within the tolerance (relative, of the depth), or their difference has no volume. `most`: see RevolutionSat::run.
 template <class Difference, class Trace>
 std::optional<RevolutionDepth<typename Difference::S>> revolution_sat(Difference& difference, typename Difference::S tolerance, int most, Trace& trace) {
   using S = typename Difference::S;

@@ -105,6 +105,7 @@ struct Summarise {
     return std::string(word_of(e.status)) + (e.status == MprStatus::separated ? "  gap " + short_number(-e.depth) : e.status == MprStatus::overlapping ? "" : "  depth " + short_number(e.depth));
   }
   std::string operator()(const recorded::SatBegan& e) const {
+    if (of_an_outline(recording) && e.faces_a + e.faces_b == 0) return "a curved outline";
     if (of_an_outline(recording)) return std::to_string(e.faces_a) + " + " + std::to_string(e.faces_b) + " edges of the outline";
     return std::to_string(e.faces_a) + " + " + std::to_string(e.faces_b) + " faces, " + std::to_string(e.edge_pairs) + " edge pairs";
   }

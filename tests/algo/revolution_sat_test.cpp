@@ -91,10 +91,9 @@ double least_height(const UprightPairs& pair) {
   for (double t = -std::numbers::pi / 2; t <= std::numbers::pi / 2; t += 1e-3)
     if (const double h = at(t); h < least) least = h, best = t;
   double low = best - 1e-3, high = best + 1e-3;
-  while (high - low > 1e-15) {
+  for (int k = 0; k < 90; ++k) {
     const double t1 = low + (high - low) / 3, t2 = high - (high - low) / 3;
     (at(t1) < at(t2) ? high : low) = at(t1) < at(t2) ? t2 : t1;
-    if (t1 == low && t2 == high) break;
   }
   return std::min(least, at((low + high) / 2));
 }
