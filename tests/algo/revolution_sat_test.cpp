@@ -197,6 +197,20 @@ TEST(RevolutionSat, ACircleOfNearestPoints) {
     }
 }
 
+/// A flat spheroid is touched along its axis all over its side, or nearly: where is for the other body to say.
+TEST(RevolutionSat, AFlatSpheroidGivesWay) {
+  for (const double along : {0.0, 1e-9, 1e-4}) {
+    Scene scene;
+    scene.query = Query::penetration;
+    scene.bodies = {{"A", {Ellipsoid{V3(1, along, 1)}, 0}, identity_pose(3)}, {"B", {Ellipsoid{V3(1.7, 1.71, 1.7)}, 0}, identity_pose(3)}};
+    scene.bodies[1].pose.position = V3(0.58, 0.5, 0);
+    const Recording recording = run_recorded(scene);
+    EXPECT_EQ(recording.result.status, "overlapping");
+    for (const Finding& finding : check(recording)) ADD_FAILURE() << along << ": " << finding.code << ": " << finding.message;
+    EXPECT_NEAR((*recording.result.witness_b)[0], 0.58, 1e-3) << along;
+  }
+}
+
 /// An outline with an ellipse takes some steps: where there are not so many, EPA is asked, and says that it came to its limit as well.
 TEST(RevolutionSat, AnOutlineThatIsNotDone) {
   Scene scene;
