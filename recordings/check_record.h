@@ -101,8 +101,8 @@ class RecordCheck {
   std::set<int> standing_, chosen_;           ///< of these
   double height_ = 0;                         ///< the least along the normals chosen
   double section_slack_ = 0;                  ///< SAT's, of bodies of revolution: how much less the depth may be than the least along its axes
-  bool curved_section_ = false;
-  double outlined_ = unknowable;              ///< and what bounds the distance from above, where an ellipse is among them
+  bool curved_section_ = false;               ///< whether an ellipsoid is among the bodies of revolution: SAT then has an outline
+  double outlined_ = unknowable;              ///< what bounds the distance from above so far, by that outline
   std::array<Number, 3> axes_{};              ///< SAT's, by source: how many may still come; of an outline any number
   std::optional<recorded::ClosedFormBegan> segments_;
   std::vector<Edge> pairs_;                   ///< of the bodies that a cast looks at
