@@ -19,7 +19,7 @@
 #include "debugger/commands/input.h"
 #include "debugger/commands/output_file.h"
 #include "debugger/render/image_file.h"
-#include "debugger/solver/solver_run.h"
+#include "debugger/solver/solver_watch.h"
 #include "debugger/view/explain.h"
 #include "debugger/view/hosts.h"
 #include "recordings/json_writing.h"
@@ -186,37 +186,16 @@ class Measuring {
   pid_t child_ = 0;
 };
 
-/// A solver's files: those its command names. A new run is due when one of them has changed.
-class SolverWatch {
- public:
-  SolverWatch(SceneFile scene, std::string command) : scene_(std::move(scene)), command_(std::move(command)) {
-    std::istringstream words(command_);
-    for (std::string word; words >> word;)
-      if (std::error_code ignored; std::filesystem::is_regular_file(word, ignored)) files_.push_back(word);
-  }
-
-  std::optional<Recording> operator()(std::string& message) {
-    std::vector<std::filesystem::file_time_type> times;
-    for (const auto& file : files_)
-      if (std::error_code missing; !std::filesystem::exists(file, missing)) return std::nullopt;  // being saved
-      else times.push_back(std::filesystem::last_write_time(file, missing));
-    if (ran_ && times == times_) return std::nullopt;
-    ran_ = true, times_ = times;
-    try {
-      return run_solver(scene_, resolve_settings(scene_.method, scene_.scene), command_, {});
-    } catch (const Error& e) {
-      message = e.line();
-      return std::nullopt;
-    }
-  }
-
- private:
-  SceneFile scene_;
-  std::string command_;
-  std::vector<std::filesystem::path> files_;
-  std::vector<std::filesystem::file_time_type> times_;
-  bool ran_ = false;
-};
+/// What the window is told of a solver's run.
+Refreshed told(SolverWatch& watch, const SolverLimits& limits) {
+  SolverWatch::News news = watch.ask();
+  Refreshed refreshed{std::move(news.run), std::move(news.error), {}};
+  if (!news.since) return refreshed;
+  std::string most;
+  append_number(most, limits.timeout);
+  refreshed.running = "your solver is running (" + std::to_string(static_cast<int>(*news.since)) + " s; after " + most + " it is ended)";
+  return refreshed;
+}
 
 struct View {
   std::string file, command, beside;
@@ -235,7 +214,8 @@ struct View {
     if (!command.empty()) {
       SceneFile scene = read_scene(options.file.empty() ? gallery_directory() / (options.scene + ".scene.json") : options.file);
       scene.method.name = MethodName::gjk;
-      options.refresh = SolverWatch(std::move(scene), command);
+      const SolverLimits limits;
+      options.refresh = [watch = std::make_shared<SolverWatch>(std::move(scene), command, limits), limits] { return told(*watch, limits); };
     }
     run_window(options, gallery_beside(!file.empty()));
     return exit_done;

@@ -17,12 +17,11 @@
 namespace gjkdbg {
 namespace {
 
+/// No more than a tenth of a second: another thread may end the program.
 int milliseconds_until(SolverProcess::Deadline deadline) {
   const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now()).count();
-  return static_cast<int>(std::clamp<long long>(left + 1, 0, 1000000));
+  return static_cast<int>(std::clamp<long long>(left + 1, 0, 100));
 }
-
-bool expired(SolverProcess::Deadline deadline) { return std::chrono::steady_clock::now() >= deadline; }
 
 [[noreturn]] void cannot_start() { throw Error("cannot-start", std::string("cannot be started: ") + std::strerror(errno), "--exec"); }
 
@@ -97,6 +96,13 @@ SolverProcess::~SolverProcess() {
   if (pid_ > 0) waitpid(pid_, &status, 0);
 }
 
+void SolverProcess::end() {
+  to_end_ = true;
+  if (const pid_t group = pid_; group > 0) kill(-group, SIGKILL);
+}
+
+bool SolverProcess::over(Deadline deadline) const { return to_end_ || std::chrono::steady_clock::now() >= deadline; }
+
 void SolverProcess::close_input() {
   if (to_ >= 0) close(to_);
   to_ = -1;
@@ -112,7 +118,7 @@ SolverProcess::Outcome SolverProcess::write_line(const std::string& line, Deadli
     } else if (n < 0 && errno == EAGAIN) {
       pollfd wait{to_, POLLOUT, 0};
       poll(&wait, 1, milliseconds_until(deadline));
-      if (expired(deadline)) return Outcome::timeout;
+      if (over(deadline)) return Outcome::timeout;
     } else if (!(n < 0 && errno == EINTR)) {
       return Outcome::closed;
     }
@@ -128,7 +134,7 @@ SolverProcess::Outcome SolverProcess::read_line(std::string& line, Deadline dead
       return Outcome::ok;
     }
     if (buffer_.size() > longest_line) return Outcome::too_long;
-    if (expired(deadline)) return Outcome::timeout;
+    if (over(deadline)) return Outcome::timeout;
     pollfd wait{from_, POLLIN, 0};
     poll(&wait, 1, milliseconds_until(deadline));
     char chunk[65536];
@@ -155,7 +161,7 @@ std::optional<std::string> SolverProcess::wait(Deadline deadline) {
       if (WEXITSTATUS(status) == 127) return "exit status 127 (what a shell says that finds no such program)";
       return WEXITSTATUS(status) == 0 ? "" : "exit status " + std::to_string(WEXITSTATUS(status));
     }
-    if (done < 0 || expired(deadline)) return std::nullopt;
+    if (done < 0 || over(deadline)) return std::nullopt;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
 }

@@ -4,6 +4,7 @@
 
 #include <sys/types.h>
 
+#include <atomic>
 #include <chrono>
 #include <optional>
 #include <string>
@@ -26,12 +27,17 @@ class SolverProcess {
   /// A line without its end. `closed`: the program has closed its output; an unfinished last line is in `line`.
   Outcome read_line(std::string& line, Deadline deadline);
   void close_input();
+  /// Kills the group, for another thread: who waits for the program is told that its time is up.
+  void end();
   /// How it ended, if it does by the deadline: "exit status 3", "signal 11 (Segmentation fault)"; "" for exit status 0.
   std::optional<std::string> wait(Deadline deadline);
 
  private:
+  bool over(Deadline deadline) const;
+
   static constexpr std::size_t longest_line = 1 << 20;
-  pid_t pid_ = -1;
+  std::atomic<pid_t> pid_ = -1;
+  std::atomic<bool> to_end_ = false;
   int to_ = -1, from_ = -1;
   std::string buffer_;
 };

@@ -100,6 +100,7 @@ Recording run_solver(const SceneFile& scene, const Settings& settings, const std
     if (std::holds_alternative<Mesh>(body.shape.geometry)) throw Error("unsupported-shape", "a mesh has no support function; a solver runs on convex shapes", "/bodies");
   SolverRecorder recorder(scene, settings, limits.max_supports);
   SolverProcess process(command, limits.errors);
+  const std::stop_callback ending(limits.stop, [&] { process.end(); });
   talk(process, recorder, limits);
   return std::move(recorder).finish();
 }

@@ -2,6 +2,7 @@
 // The messages are described in recordings/README.md.
 #pragma once
 
+#include <stop_token>
 #include <string>
 
 #include "recordings/recording.h"
@@ -12,6 +13,7 @@ struct SolverLimits {
   int max_supports = 1000;
   double timeout = 10;  ///< seconds, from start to result
   int errors = 2;       ///< the file descriptor its standard error goes to: ours
+  std::stop_token stop; ///< asked to stop by another thread, the run ends at once, and what was recorded of it means nothing
 };
 
 /// What a scene's method means to a program that has its own: how exact, and in which numbers. Which of ours solves it, by what rule and from where is not the program's affair.

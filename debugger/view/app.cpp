@@ -137,8 +137,8 @@ void App::edit(const SceneFile& next) {
 /// What went wrong, over the views, until something succeeds or it is clicked away; what was done, for a while.
 void App::banner(const Area& area) {
   const bool error = !message.empty();
-  if (!error && notice_left_ <= 0) return;
-  const std::string& text = error ? message : notice;
+  if (!error && notice_left_ <= 0 && running.empty()) return;
+  const std::string& text = error ? message : notice_left_ > 0 ? notice : running;
   const float wrap = area.width - theme.px(60);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
   const float width = std::min(area.width, size.x + theme.px(60)), height = size.y + theme.px(22), x = area.x + (area.width - width) / 2;

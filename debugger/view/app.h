@@ -39,6 +39,7 @@ class App {
   bool quit = false;          ///< the person wants to leave
   std::string message;        ///< the last error, shown until the next success
   std::string notice;         ///< the last thing done ("copied"), shown for a while
+  std::string running;        ///< what is being done beside the window, for as long as it is
   std::string save_requested; ///< a file name the person gave; the host writes it, puts what went wrong into `message`, and clears this
   std::string stop_when_text; ///< the condition as typed
   std::string stop_when_error;

@@ -85,9 +85,10 @@ void open_dropped(GLFWwindow* window, int count, const char** files) {
 }
 
 void refresh(App& app, const WindowOptions& options) {
-  std::string message;
-  if (auto recording = options.refresh(message)) app.show_run(std::move(*recording));
-  if (!message.empty()) app.message = message;
+  Refreshed refreshed = options.refresh();
+  if (refreshed.run) app.show_run(std::move(*refreshed.run));
+  if (!refreshed.error.empty()) app.message = refreshed.error;
+  app.running = refreshed.running + (refreshed.running.empty() || foreign(app.session.recording()) ? "" : ". Until then you see gjkdbg's own run.");
 }
 
 /// Starts the measurement asked for; shows the one that is done.

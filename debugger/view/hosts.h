@@ -23,6 +23,13 @@ struct Image {
 /// Writes what the person asked to save; returns the error's line, or nothing.
 using Save = std::function<std::string(const App&, const std::string& file)>;
 
+/// What has come of a run that goes on beside the window.
+struct Refreshed {
+  std::optional<Recording> run;  ///< to be shown instead of what is
+  std::string error;
+  std::string running;           ///< what to say for as long as it goes on
+};
+
 struct WindowOptions {
   int width = 0, height = 0;  ///< 0: as remembered
   float scale = 0;  ///< 0: the monitor's
@@ -32,8 +39,7 @@ struct WindowOptions {
   Save save;
   Preferences preferences;
   std::function<void(const Preferences&)> remember;  ///< called when the window closes
-  /// Asked every third of a second: a recording to show instead, when there is a new one. What is wrong goes into the string.
-  std::function<std::optional<Recording>(std::string& message)> refresh;
+  std::function<Refreshed()> refresh;  ///< asked every third of a second
   /// Starts a measurement ("chart" or "atlas"), or, asked for "", tells the file of the one that is done. Throws Error when there will be none.
   std::function<std::optional<std::filesystem::path>(const std::string& what)> measure;
 };
