@@ -89,6 +89,14 @@ TEST_F(Newcomer, IsToldWhyAnOutlineIsLookedAt) {
   }
 }
 
+TEST_F(Newcomer, ReadsWhatEachChoiceIs) {
+  const auto each_has_one = [](const auto& names) {
+    for (const std::string_view name : names) EXPECT_FALSE(meaning_of_choice(name).empty()) << name;
+  };
+  each_has_one(query_names), each_has_one(method_names), each_has_one(closest_point_names), each_has_one(stopping_names);
+  each_has_one(acceleration_names), each_has_one(penetration_names), each_has_one(start_names), each_has_one(scalar_names);
+}
+
 TEST_F(Newcomer, SeesTheListThatIsSearched) {
   app.open_find_bar();
   host.frame(), host.frame(), host.frame();

@@ -176,6 +176,8 @@ void way_back(App& app);
 std::string meaning_of(const std::string& label, bool world, const Frame& frame, const Recording& recording);
 /// What a heading or a row of the step's panel means; empty where it says so itself.
 std::string glossary(std::string_view name);
+/// What a method, a query or a setting is that can be chosen.
+std::string meaning_of_choice(std::string_view name);
 /// A tooltip that says so, when what was drawn last is pointed at.
 void tell_meaning(const Theme& theme, const char* name);
 /// The two views, side by side or stacked, or the one chosen.

@@ -52,7 +52,53 @@ constexpr GlossaryEntry row_meanings[] = {
     {"removed / added", "What the new point sees of the polytope is removed; what joins it to the rest is added."},
 };
 
+/// And for what can be chosen in the scene's panel.
+constexpr GlossaryEntry choice_meanings[] = {
+    {"intersect", "Whether the bodies have a point in common: yes or no."},
+    {"distance", "How far apart they are, and where they are nearest; of an overlap only that there is one."},
+    {"penetration", "How far apart they are, or how deep they overlap, along which normal, and at which points."},
+    {"contact", "The same, and the points of their contact area, as for a physics engine."},
+    {"cast", "When the bodies first touch as they move."},
+    {"simulate", "How the bodies move under gravity, with contacts and friction."},
+    {"gjk", "Gilbert, Johnson and Keerthi's: a simplex of supports walks towards the origin, as it is mostly taught."},
+    {"gjk-boolean", "The same walk for a yes or no: it ends at the first plane that separates."},
+    {"gjk-accelerated", "The same walk with directions that look ahead, for fewer steps."},
+    {"mpr", "Minkowski portal refinement: a portal along one ray is moved outwards. Quick, but of an overlap it finds a way out, not the shortest."},
+    {"sat", "Separating axes: of boxes and polytopes it tries every direction that could be the answer."},
+    {"closed-form", "A formula, for bodies whose cores are points and segments: spheres and capsules."},
+    {"projections", "Each body's point nearest to the other's, in turn, by formulas."},
+    {"fastest", "Whichever of these the charts show to be fastest for these bodies."},
+    {"conservative-advancement", "Goes on in time by as much as surely nothing is reached in, and measures the distance again."},
+    {"ray-cast", "Casts a ray against A â B: one search instead of many, for bodies that do not turn."},
+    {"root-finding", "Looks for the time when the gap along the normal closes, as one looks for the root of a function."},
+    {"signed-volumes", "By the signs of volumes, areas and lengths (Montanari): the default, right to the last bits."},
+    {"johnson", "By determinants (Johnson 1988), with a backup where rounding spoils them."},
+    {"voronoi", "By asking which corner, edge or face the origin lies before (Ericson)."},
+    {"nesterov", "A momentum that forgets slowly; falls back to -v where it no longer helps."},
+    {"polyak", "A momentum of constant weight; falls back to -v where it no longer helps."},
+    {"newton", "By how the supports of round bodies move with the direction."},
+    {"smoothed", "In the first steps a mean of -v and the direction of the best plane so far."},
+    {"bounds", "When what is proven from below and from above agrees within the tolerance."},
+    {"van-den-bergen", "When |v| and the best plane so far agree within the tolerance (van den Bergen 1999)."},
+    {"bullet", "As Bullet does it: by a constant of its own, of the squares."},
+    {"jolt", "As Jolt does it: when |v| hardly falls any more."},
+    {"opengjk", "As openGJK does it: by constants of its own, one of them a length, and after 25 steps."},
+    {"centres", "Along the line from one body's centre to the other's."},
+    {"given", "Along a direction of yours."},
+    {"previous", "With the simplex that the last run ended with: for bodies that have moved a little."},
+    {"epa", "The expanding polytope: the shortest way out."},
+    {"none", "Nobody: that they overlap is all that is told."},
+    {"double", "16 digits."},
+    {"float", "7 digits."},
+};
+
 }  // namespace
+
+std::string meaning_of_choice(std::string_view name) {
+  for (const auto& [choice, meaning] : choice_meanings)
+    if (name == choice) return meaning;
+  return "";
+}
 
 std::string glossary(std::string_view name) {
   for (const auto& [heading, meaning] : heading_meanings)

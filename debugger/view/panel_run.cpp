@@ -33,6 +33,7 @@ void compare_section(App& app) {
       Method method = s.scene().method;
       change(method);
       if (ImGui::Selectable(title)) app.message = s.compare_with(method, title);
+      if (ImGui::IsItemHovered()) tooltip(theme, meaning_of_choice(title));
     };
     if (now.scalar == Scalar::double_precision) offer("float", [](Method& m) { m.scalar = Scalar::float_precision, m.tolerance.reset(); });
     else offer("double", [](Method& m) { m.scalar = Scalar::double_precision, m.tolerance.reset(); });

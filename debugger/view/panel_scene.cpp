@@ -28,10 +28,13 @@ bool choice(const Theme& theme, const char* label, int& value, const Names& name
   const std::string now(names[static_cast<std::size_t>(value)]);
   const float room = ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - 2 * ImGui::GetStyle().FramePadding.x;
   const bool open = ImGui::BeginCombo("##choice", shortened(theme.text, now, room).c_str());
-  if (!open && ImGui::IsItemHovered()) tooltip(theme, (ImGui::CalcTextSize(now.c_str()).x > room ? now + "\n" : "") + meaning);
+  if (!open && ImGui::IsItemHovered()) tooltip(theme, meaning + ("\n\n" + now) + ": " + meaning_of_choice(now));
   if (open) {
-    for (const int i : offered)
-      if (ImGui::Selectable(std::string(names[static_cast<std::size_t>(i)]).c_str(), i == value)) value = i, edited = true;
+    for (const int i : offered) {
+      const std::string name(names[static_cast<std::size_t>(i)]);
+      if (ImGui::Selectable(name.c_str(), i == value)) value = i, edited = true;
+      if (ImGui::IsItemHovered()) tooltip(theme, meaning_of_choice(name));
+    }
     ImGui::EndCombo();
   }
   ImGui::PopID();
