@@ -200,5 +200,22 @@ TEST_F(Lines, ThePortalOfOneTriangleIsNotThatOfTheNext) {
   EXPECT_EQ(runs, 2);
 }
 
+/// The list gives way, not the heading that says what the dialog is for.
+TEST(Dialog, FitsASmallWindow) {
+  Headless host(320, 240, 1, read_gallery(GJKDBG_GALLERY));
+  App& app = host.app();
+  app.open_gallery("box-box-deep");
+  host.frame();
+  for (const App::Asking what : {App::Asking::open, App::Asking::compare, App::Asking::save, App::Asking::go_to}) {
+    app.ask(what);
+    host.frame(), host.frame(), host.frame();
+    const ImGuiWindow* dialog = ImGui::FindWindowByName("ask");
+    ASSERT_TRUE(dialog && dialog->WasActive);
+    EXPECT_EQ(dialog->ScrollMax.y, 0) << static_cast<int>(what);
+    EXPECT_LE(dialog->Pos.y + dialog->Size.y, 240) << static_cast<int>(what);
+    host.press(Key::escape);
+  }
+}
+
 }  // namespace
 }  // namespace gjkdbg

@@ -1,6 +1,7 @@
 // The window asks for a file: to open, to compare with, to save.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <string_view>
@@ -80,9 +81,12 @@ void App::file_dialog() {
 
 void App::file_list() {
   if (listed_for_ != file_buffer_) listed_for_ = file_buffer_, listed_ = possible_names(file_buffer_);
-  const float row = ImGui::GetTextLineHeightWithSpacing();
+  // Eight rows, or as many as leave the whole dialog in the window.
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float row = ImGui::GetTextLineHeightWithSpacing(), padding = theme.px(8), error = file_error_.empty() ? 0 : 2 * row;
+  const float room = ImGui::GetIO().DisplaySize.y - ImGui::GetCursorPosY() - ImGui::GetFrameHeightWithSpacing() - style.WindowPadding.y - style.DisplaySafeAreaPadding.y * 2 - error - padding;
   ImGui::PushStyleColor(ImGuiCol_ChildBg, vec(theme.palette.field));
-  ImGui::BeginChild("list", {0, 8 * row + theme.px(8)}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+  ImGui::BeginChild("list", {0, std::clamp(std::floor(room / row), 2.f, 8.f) * row + padding}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
   std::optional<std::string> chosen;
   for (const std::string& name : listed_)
     if (ImGui::Selectable(name.c_str(), false, ImGuiSelectableFlags_DontClosePopups)) chosen = name;
