@@ -144,6 +144,7 @@ class Projections {
 
   void step(const V& g) {
     from_ = x_, step_ = newton(g), share_ = 1;
+    if (!step_.allFinite()) step_ = g;  // of needles whose squares are beyond the numbers
     if (const S squared = step_.dot(step_); squared > reach_ * reach_) step_ *= reach_ / std::sqrt(squared);  // no body is that long
     if (result_.iterations > 1) {  // the first x is somewhere inside A
       const V apart = x_ - b_;

@@ -181,21 +181,29 @@ void project(const EllipsoidCore<D, S>& core, const Vector<D, S>& p, ProjectionS
     t = t + step > 0 ? t + step : t / 8;
   }
   evaluate();
-  const S off = f - 1, onto = off * off < std::numeric_limits<S>::epsilon() ? 1 - off / 2 : 1 / std::sqrt(f);  // on the surface, however well t is known
+  // The last of it. Brought onto the surface towards the centre instead, a point beside the rim of a thin disc would move along the disc. That is for what t
+  // does not tell: a short axis along which p is nothing.
+  const S off = f - 1, last = off / (2 * slope);
+  const bool told = std::abs(last) < S(1e-3) * (least + t);
+  const S onto = told ? S(1) : off * off < std::numeric_limits<S>::epsilon() ? 1 - off / 2 : 1 / std::sqrt(f);
+  const S more = told ? last : S(0);
+  t += more;
   S n[D];
   int m = 0;
   for (int i = 0; i < D; ++i) {
-    n[i] = p[i] * inverse[i] * onto;
+    n[i] = p[i] * inverse[i] * (1 - more * inverse[i]) * onto;
     out.point[i] = squared[i] * n[i];
     if (std::abs(n[i]) > std::abs(n[m])) m = i;
   }
   out.inside = false, out.flat = 0;
   if constexpr (D == 3) {
+    // With u = n / n_m the tangents are e_i - u_i e_m and e_j - u_j e_m, and the determinant is a sum (Cauchy, Binet): w_i w_j + u_i^2 w_j w_m + u_j^2 w_i w_m.
     const int i = (m + 1) % 3, j = (m + 2) % 3;
+    const S ui = n[i] / n[m], uj = n[j] / n[m];
     const S wi = 1 + t / squared[i], wj = 1 + t / squared[j], wm = 1 + t / squared[m];
-    out.tangent[0][i] = n[m], out.tangent[0][j] = 0, out.tangent[0][m] = -n[i];
-    out.tangent[1][i] = 0, out.tangent[1][j] = n[m], out.tangent[1][m] = -n[j];
-    const S a = n[m] * n[m] * wi + n[i] * n[i] * wm, b = n[i] * n[j] * wm, c = n[m] * n[m] * wj + n[j] * n[j] * wm, one = 1 / (a * c - b * b);
+    out.tangent[0][i] = 1, out.tangent[0][j] = 0, out.tangent[0][m] = -ui;
+    out.tangent[1][i] = 0, out.tangent[1][j] = 1, out.tangent[1][m] = -uj;
+    const S a = wi + ui * ui * wm, b = ui * uj * wm, c = wj + uj * uj * wm, one = 1 / (wi * wj + ui * ui * wj * wm + uj * uj * wi * wm);
     out.k00 = c * one, out.k01 = -b * one, out.k11 = a * one;
   } else if constexpr (D == 2) {
     out.tangent[0] = Vector<2, S>(-n[1], n[0]);
