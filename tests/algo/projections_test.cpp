@@ -102,8 +102,8 @@ TEST(Projections, FindThePointOfANeedleThatIsNextToThem) {
 /// In single precision the squares of a leaf's thickness are lost beside the rest, and Newton's step was no number: a recording with "point": null.
 TEST(Projections, StepBesideALeafInNumbers) {
   const SceneFile scene = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "penetration", "method": {"name": "projections", "scalar": "float"}, "bodies": [
-      {"shape": {"type": "ellipsoid", "radii": [0.0619367752544, 0.0287024494346, 1.409701264446e-06]}, "pose": {"position": [0, 0, 0], "rotation": {"axis": [1.07877818314, 0.742454208054, 0.224961106069], "angle": 120.064896511884}}},
-      {"shape": {"type": "cylinder", "radius": 0.0118189456895, "half_height": 0.309236840361}, "pose": {"position": [0.0797038933993, -0.133820603044, -0.06909568704], "rotation": {"axis": [0.469489190968, -0.726219124927, 1.534420653205], "angle": 91.617203892990}}}]})", {});
+      {"shape": {"type": "ellipsoid", "radii": [0.06193677525439484, 0.028702449434633525, 1.409701264446027e-06]}, "pose": {"position": [0, 0, 0], "rotation": {"axis": [1.078778183140885, 0.7424542080541862, 0.2249611060693429], "angle": 120.06489651188392}}},
+      {"shape": {"type": "cylinder", "radius": 0.011818945689533546, "half_height": 0.309236840361317}, "pose": {"position": [0.07970389339931971, -0.13382060304375973, -0.06909568704021485], "rotation": {"axis": [0.4694891910482657, -0.7262191249275073, 1.5344206532054228], "angle": 91.61720389298989}}}]})", {});
   const Recording run = record(scene);
   for (const Event& event : run.events)
     if (const auto* predicted = std::get_if<recorded::PointPredicted>(&event)) {
