@@ -73,7 +73,7 @@ class UprightPairs {
       case 0: shape.geometry = Cone{radius, half, axis}; break;
       case 1: shape.geometry = Capsule{radius, half, axis}; break;
       case 2: shape.geometry = Sphere{radius}; break;
-      case 3: shape.geometry = PointSet{PointSetKind::segment, {V3(0.1, 0.2, -half), V3(0.1, 0.2, half)}, {}}; return 2;
+      case 3: shape.geometry = PointSet{PointSetKind::segment, {V3(0.1, 0.2, -half), V3(0.1, 0.2, 0.4 * half)}, {}}; return 2;
       case 4: shape.geometry = spheroid(half); break;
       case 5: shape.geometry = spheroid(k % 2 == 0 ? radius : radius * (1 + std::pow(10, -uniform(2, 12)))); break;  // a ball, or nearly
       default: shape.geometry = Cylinder{radius, half, axis}; break;
