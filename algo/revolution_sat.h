@@ -346,23 +346,15 @@ class RevolutionSat {
   SatWitnesses<3, S> witnesses_{V::Zero(), V::Zero()};
 };
 
-/// What SAT tells of two bodies of revolution. The points mean something where it ends as `overlapping`.
-template <class S>
-struct RevolutionDepth {
-  SatResult<3, S> sat;
-  SatWitnesses<3, S> points;
-  S slack;  ///< how much less the depth may be than the least height
-};
-
 /// Unset where they are none, their axes are not parallel within the tolerance (relative, of the depth), or their difference has no volume. `most`: see RevolutionSat::run.
 template <class Difference, class Trace>
-std::optional<RevolutionDepth<typename Difference::S>> revolution_sat(Difference& difference, typename Difference::S tolerance, int most, Trace& trace) {
+std::optional<OutlineDepth<3, typename Difference::S>> revolution_sat(Difference& difference, typename Difference::S tolerance, int most, Trace& trace) {
   using S = typename Difference::S;
   const auto pair = RevolvedPair<S>::of(difference, tolerance);
   if (!pair) return std::nullopt;
   RevolutionSat<Difference, Trace> sat(difference, *pair, trace);
   const SatResult<3, S> found = sat.run(tolerance, most);
-  return RevolutionDepth<S>{found, sat.witnesses(), sat.slack()};
+  return OutlineDepth<3, S>{found, sat.witnesses(), sat.slack()};
 }
 
 }  // namespace gjkdbg

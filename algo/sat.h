@@ -38,6 +38,14 @@ struct SatWitnesses {
   Vector<D, S> a, b;
 };
 
+/// What an outline tells of two bodies. The points mean something where it ends as `overlapping`.
+template <int D, class S>
+struct OutlineDepth {
+  SatResult<D, S> sat;
+  SatWitnesses<D, S> points;
+  S slack;  ///< how much less the depth may be than the least height
+};
+
 /// An edge of a core, with the normals of the faces beside it: zero where it has none.
 template <int D, class S>
 struct SatEdge {

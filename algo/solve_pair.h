@@ -16,6 +16,7 @@
 #include "algo/epa.h"
 #include "algo/lent.h"
 #include "algo/mpr.h"
+#include "algo/near_balls.h"
 #include "algo/polygon_sat.h"
 #include "algo/projections.h"
 #include "algo/result.h"
@@ -140,7 +141,7 @@ class PairSolver {
       if (found.decided && found.overlapping()) return portal_depth(found);
       if (found.decided) return apart_after_all(found);
     }
-    if (revolution_decides()) return;
+    if (outline_decides()) return;
     EpaOptions<S> options;
     options.tolerance = static_cast<S>(settings_.tolerance);
     options.max_iterations = settings_.max_iterations;
@@ -154,12 +155,13 @@ class PairSolver {
     witnesses(flat ? gjk_.simplex.point_a() : found.point_a, flat ? gjk_.simplex.point_b() : found.point_b, found.normal, -found.depth);
   }
 
-  /// False: no bodies of revolution about parallel axes, or not decided.
-  bool revolution_decides() {
-    if constexpr (D == 3)
-      if (const auto found = revolution_sat(difference_, static_cast<S>(settings_.tolerance), settings_.max_iterations, trace_); found && sat_answers(found->sat, false))
-        return sat_depth(found->sat, found->points, found->slack), true;
-    return false;
+  /// False: neither bodies of revolution about parallel axes nor nearly balls, or not decided.
+  bool outline_decides() {
+    std::optional<OutlineDepth<D, S>> found;
+    if constexpr (D == 3) found = revolution_sat(difference_, static_cast<S>(settings_.tolerance), settings_.max_iterations, trace_);
+    if (!found) found = near_balls(difference_, static_cast<S>(settings_.tolerance), settings_.max_iterations, trace_);
+    if (!found || !sat_answers(found->sat, false)) return false;
+    return sat_depth(found->sat, found->points, found->slack), true;
   }
 
   /// MPR has a plane between bodies that GJK could not tell apart: GJK's simplex has the nearest points it knew.

@@ -6,44 +6,14 @@
 #include <tuple>
 
 #include "algo/motion.h"
-#include "algo/revolution_sat.h"
-#include "algo/working_scale.h"
 #include "recordings/check_record.h"
+#include "recordings/outlines.h"
 #include "shapes/features.h"
 
 namespace gjkdbg {
 namespace {
 
 bool looked_at(const std::vector<Edge>& pairs, const Edge& pair) { return std::find(pairs.begin(), pairs.end(), pair) != pairs.end(); }
-
-/// A body of revolution of which SAT knows the section; empty: none.
-std::optional<Revolved<double>> revolved_body(const Body& body, int dimension) {
-  if (dimension != 3 || std::holds_alternative<Mesh>(body.shape.geometry)) return std::nullopt;
-  return revolved<double>(Convex<3, double>(body.shape).core());
-}
-
-/// Of these SAT tells the depth where their axes are parallel, whatever the method.
-bool of_revolution(const Recording& recording) {
-  const Scene& scene = recording.scene.scene;
-  return scene.query > Query::distance && recording.settings.penetration != Penetration::none &&
-         std::count_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) { return revolved_body(body, scene.dimension).has_value(); }) >= 2;
-}
-
-/// The section of the difference of two of them: how many edges of each count, and how much less the depth may be than is found along them.
-struct Section {
-  int of_a, of_b;
-  double slack;
-};
-template <class S>
-std::optional<Section> section_of(const Recording& recording) {
-  const Body &a = recording.scene.scene.bodies[0], &b = recording.scene.scene.bodies[1];
-  const double scale = working_scale<S>(a, b);
-  const Convex<3, S> core_a(a.shape, scale), core_b(b.shape, scale);
-  const auto pair = RevolvedPair<S>::of(MinkowskiDifference<3, S, Convex<3, S>>(core_a, core_b, a.pose, b.pose, scale), static_cast<S>(recording.settings.tolerance));
-  if (!pair) return std::nullopt;
-  const auto normals = pair->normals();
-  return Section{normals.of_a, normals.of_b, static_cast<double>(pair->slack) / scale};
-}
 
 }  // namespace
 
@@ -57,7 +27,7 @@ std::string RecordCheck::not_by_this_method() const {
   const bool mpr_may_follow = s.penetration == Penetration::mpr || c_.recording.scene.scene.query == Query::intersect;  // where GJK stalls
   for (const Own& own : {Own{MethodName::mpr, "mpr_began", "mpr_began"}, Own{MethodName::sat, "sat_began", "flat-difference"}, Own{MethodName::projections, "projections_began", "flat-ellipsoid"}, Own{MethodName::closed_form, "closed_form_began", "closed_form_began"}}) {
     if (s.name == own.name && !methods_.contains(own.began) && !methods_.contains(own.left)) return "no step of it is there";
-    const bool may_follow = own.name == MethodName::mpr ? mpr_may_follow : own.name == MethodName::sat && of_revolution(c_.recording);
+    const bool may_follow = own.name == MethodName::mpr ? mpr_may_follow : own.name == MethodName::sat && may_have_outline(c_.recording);
     if (s.name != own.name && methods_.contains(own.began) && !may_follow) return "there is \"" + std::string(own.began) + "\"";
   }
   return "";
@@ -124,10 +94,7 @@ void RecordCheck::judge(const recorded::MprEnded& e) {
 /// the edges of a section count.
 void RecordCheck::count_axes(const recorded::SatBegan& e) {
   const auto& bodies = c_.recording.scene.scene.bodies;
-  section_slack_ = 0, curved_section_ = of_revolution(c_.recording) && std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
-    const auto found = revolved_body(body, c_.dimension);
-    return found && found->ellipse();
-  });
+  section_slack_ = 0, curved_section_ = may_have_curved_outline(c_.recording);
   if (!c_.has_supports || bodies.size() != 2) return;
   if (c_.recording.settings.name != MethodName::sat) return count_section_axes(e);
   const std::optional<Features> a = features_of(bodies[0].shape, c_.dimension), b = features_of(bodies[1].shape, c_.dimension);
@@ -143,13 +110,13 @@ void RecordCheck::count_axes(const recorded::SatBegan& e) {
 }
 
 void RecordCheck::count_section_axes(const recorded::SatBegan& e) {
-  if (!of_revolution(c_.recording)) return;
-  const std::optional<Section> right = c_.recording.settings.scalar == Scalar::float_precision ? section_of<float>(c_.recording) : section_of<double>(c_.recording);
-  if (!right) return contradiction("SAT begins, but the bodies are no bodies of revolution with parallel axes.");
+  if (!may_have_outline(c_.recording)) return;
+  const std::optional<DepthOutline> right = outline_of(c_.recording);
+  if (!right) return contradiction("SAT begins, but the bodies are neither bodies of revolution with parallel axes nor nearly balls.");
   section_slack_ = right->slack;
-  if (e.faces_a != right->of_a || e.faces_b != right->of_b || e.edge_pairs != 0)
-    contradiction("SAT is said to have " + std::to_string(e.faces_a) + " and " + std::to_string(e.faces_b) + " faces and " + std::to_string(e.edge_pairs) + " pairs of edges to look along; the section of these bodies of revolution has " +
-                  std::to_string(right->of_a) + " and " + std::to_string(right->of_b) + " edges that count.");
+  if (e.faces_a != right->edges_of_a || e.faces_b != right->edges_of_b || e.edge_pairs != 0)
+    contradiction("SAT is said to have " + std::to_string(e.faces_a) + " and " + std::to_string(e.faces_b) + " faces and " + std::to_string(e.edge_pairs) + " pairs of edges to look along; the outline of these bodies has " +
+                  std::to_string(right->edges_of_a) + " and " + std::to_string(right->edges_of_b) + " edges that count.");
 }
 
 /// A pair of edges of which one has no faces beside it is an axis both ways.

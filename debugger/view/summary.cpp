@@ -5,6 +5,7 @@
 
 #include "debugger/render/step_pictures.h"
 #include "debugger/view/explain.h"
+#include "recordings/outlines.h"
 
 namespace gjkdbg {
 
@@ -74,6 +75,13 @@ bool of_two_boxes(const Recording& recording, std::size_t step) {
 }
 
 bool of_an_outline(const Recording& recording) { return recording.settings.name != MethodName::sat; }
+bool of_near_balls(const Recording& recording) {
+  const Scene& scene = recording.scene.scene;
+  const auto mesh = [](const Body& body) { return std::holds_alternative<Mesh>(body.shape.geometry); };
+  if (!of_an_outline(recording) || scene.motion || std::any_of(scene.bodies.begin(), scene.bodies.end(), mesh)) return false;
+  const std::optional<DepthOutline> outline = outline_of(recording);
+  return outline && outline->near_balls;
+}
 
 namespace {
 
@@ -105,6 +113,7 @@ struct Summarise {
     return std::string(word_of(e.status)) + (e.status == MprStatus::separated ? "  gap " + short_number(-e.depth) : e.status == MprStatus::overlapping ? "" : "  depth " + short_number(e.depth));
   }
   std::string operator()(const recorded::SatBegan& e) const {
+    if (of_near_balls(recording)) return "nearly balls";
     if (of_an_outline(recording) && e.faces_a + e.faces_b == 0) return "a curved outline";
     if (of_an_outline(recording)) return std::to_string(e.faces_a) + " + " + std::to_string(e.faces_b) + " edges of the outline";
     return std::to_string(e.faces_a) + " + " + std::to_string(e.faces_b) + " faces, " + std::to_string(e.edge_pairs) + " edge pairs";

@@ -1,0 +1,83 @@
+#include "recordings/outlines.h"
+
+#include <algorithm>
+
+#include "algo/near_balls.h"
+#include "algo/revolution_sat.h"
+#include "algo/working_scale.h"
+
+namespace gjkdbg {
+namespace {
+
+bool convex(const Body& body) { return !std::holds_alternative<Mesh>(body.shape.geometry); }
+
+bool asks_for_depth(const Recording& recording) { return recording.scene.scene.query > Query::distance && recording.settings.penetration != Penetration::none; }
+
+std::optional<Revolved<double>> revolved_body(const Body& body, int dimension) {
+  if (dimension != 3 || !convex(body)) return std::nullopt;
+  return revolved<double>(Convex<3, double>(body.shape).core());
+}
+
+template <class Kind>
+auto count_of_bodies(const Scene& scene, const Kind& kind) {
+  return std::count_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) {
+    const auto found = revolved_body(body, scene.dimension);
+    return found && kind(*found);
+  });
+}
+
+template <int D, class S>
+struct Placed {
+  double scale;
+  Convex<D, S> a, b;
+  MinkowskiDifference<D, S, Convex<D, S>> difference;
+  Placed(const Body& of_a, const Body& of_b)
+      : scale(working_scale<S>(of_a, of_b)), a(of_a.shape, scale), b(of_b.shape, scale), difference(a, b, of_a.pose, of_b.pose, scale) {}
+};
+
+template <int D>
+bool balls_roll_in(const Body& a, const Body& b, bool single) {
+  return single ? RollingBalls<float>::of(Placed<D, float>(a, b).difference).has_value() : RollingBalls<double>::of(Placed<D, double>(a, b).difference).has_value();
+}
+
+/// Wherever they are, and however they are turned.
+bool nearly_balls(const Recording& recording) {
+  const auto& bodies = recording.scene.scene.bodies;
+  const int dimension = recording.scene.scene.dimension;
+  const bool single = recording.settings.scalar == Scalar::float_precision;
+  if (dimension == 1) return false;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (std::size_t j = i + 1; j < bodies.size(); ++j)
+      if (convex(bodies[i]) && convex(bodies[j]) && (dimension == 2 ? balls_roll_in<2>(bodies[i], bodies[j], single) : balls_roll_in<3>(bodies[i], bodies[j], single))) return true;
+  return false;
+}
+
+template <class S>
+std::optional<DepthOutline> of_revolution(const Recording& recording) {
+  const Placed<3, S> placed(recording.scene.scene.bodies[0], recording.scene.scene.bodies[1]);
+  const auto pair = RevolvedPair<S>::of(placed.difference, static_cast<S>(recording.settings.tolerance));
+  if (!pair) return std::nullopt;
+  const auto normals = pair->normals();
+  return DepthOutline{false, normals.of_a, normals.of_b, static_cast<double>(pair->slack) / placed.scale};
+}
+
+}  // namespace
+
+bool may_have_outline(const Recording& recording) {
+  return asks_for_depth(recording) && (count_of_bodies(recording.scene.scene, [](const auto&) { return true; }) >= 2 || nearly_balls(recording));
+}
+
+bool may_have_curved_outline(const Recording& recording) {
+  if (!may_have_outline(recording)) return false;
+  return nearly_balls(recording) || count_of_bodies(recording.scene.scene, [](const auto& body) { return body.ellipse(); }) > 0;
+}
+
+std::optional<DepthOutline> outline_of(const Recording& recording) {
+  if (!asks_for_depth(recording)) return std::nullopt;
+  std::optional<DepthOutline> found;
+  if (recording.scene.scene.dimension == 3) found = recording.settings.scalar == Scalar::float_precision ? of_revolution<float>(recording) : of_revolution<double>(recording);
+  if (!found && nearly_balls(recording)) found = DepthOutline{true};
+  return found;
+}
+
+}  // namespace gjkdbg
