@@ -89,6 +89,23 @@ TEST_F(Newcomer, IsToldWhyAnOutlineIsLookedAt) {
   }
 }
 
+TEST_F(Newcomer, IsToldWhatIsNearlyABall) {
+  app.open_gallery("nearly-balls");
+  int axes = 0;
+  for (std::size_t step = 0; step < session.count(); ++step) {
+    session.go_to(step);
+    const Explanation told = explain(session.recording(), session.frame());
+    EXPECT_EQ(told.text.find("parallel"), std::string::npos) << told.text;
+    if (kind_at<recorded::SatBegan>(session, step)) {
+      EXPECT_NE(told.text.find("the largest that rolls within it"), std::string::npos) << told.text;
+    }
+    if (!kind_at<recorded::AxisTested>(session, step)) continue;
+    EXPECT_EQ(pseudo_code(session.recording(), step).title, "Depth of what is nearly balls");
+    ++axes;
+  }
+  EXPECT_GE(axes, 20);
+}
+
 TEST_F(Newcomer, ReadsWhatEachChoiceIs) {
   const auto each_has_one = [](const auto& names) {
     for (const std::string_view name : names) EXPECT_FALSE(meaning_of_choice(name).empty()) << name;
