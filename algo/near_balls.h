@@ -16,39 +16,14 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <variant>
 
 #include "algo/epa.h"
 #include "algo/gjk.h"
 #include "algo/lent.h"
+#include "algo/rolling_balls.h"
 #include "algo/sat.h"
-#include "shapes/convex.h"
 
 namespace gjkdbg {
-
-/// Radii of the largest balls that roll within A and B.
-template <class S>
-struct RollingBalls {
-  S a, b;
-
-  /// Unset where a body is neither an ellipsoid nor a point, neither is an ellipsoid, or the balls are less than half of the bodies.
-  template <class Difference>
-  static std::optional<RollingBalls> of(const Difference& difference) {
-    const std::optional<S> a = within(difference.a()), b = within(difference.b());
-    if (!a || !b || !(2 * (*a + *b) > static_cast<S>(difference.a().extent() + difference.b().extent()))) return std::nullopt;
-    return RollingBalls{*a, *b};
-  }
-
- private:
-  template <int D>
-  static std::optional<S> within(const Convex<D, S>& body) {
-    if (std::holds_alternative<PointCore<D, S>>(body.core())) return S(0);
-    const auto* ellipsoid = std::get_if<EllipsoidCore<D, S>>(&body.core());
-    if (!ellipsoid) return std::nullopt;
-    const S least = ellipsoid->radii.minCoeff();
-    return least * (least / ellipsoid->radii.maxCoeff());
-  }
-};
 
 template <class Difference_, class Trace>
 class NearBalls {
@@ -128,7 +103,7 @@ class NearBalls {
     options.tolerance = tolerance_, options.max_iterations = most;
     Lent<EpaWorkspace<D, S>> workspace;
     Watch watch(*this);
-    const EpaResult<D, S> found = gjkdbg::epa(rests, simplex, options, *workspace, watch);
+    const EpaResult<D, S> found = epa(rests, simplex, options, *workspace, watch);
     const bool flat = found.face < 0;
     Simplex<D, S> weighed = simplex;
     if (flat && weighed.size() == D + 1) weigh_enclosing(weighed);

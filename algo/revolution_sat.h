@@ -352,9 +352,9 @@ std::optional<OutlineDepth<3, typename Difference::S>> revolution_sat(Difference
   using S = typename Difference::S;
   const auto pair = RevolvedPair<S>::of(difference, tolerance);
   if (!pair) return std::nullopt;
-  RevolutionSat<Difference, Trace> sat(difference, *pair, trace);
-  const SatResult<3, S> found = sat.run(tolerance, most);
-  return OutlineDepth<3, S>{found, sat.witnesses(), sat.slack()};
+  RevolutionSat<Difference, Trace> outline(difference, *pair, trace);
+  const SatResult<3, S> found = outline.run(tolerance, most);
+  return OutlineDepth<3, S>{found, outline.witnesses(), outline.slack()};
 }
 
 }  // namespace gjkdbg

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "algo/near_balls.h"
+#include "algo/minkowski_difference.h"
 #include "algo/revolution_sat.h"
+#include "algo/rolling_balls.h"
 #include "algo/working_scale.h"
 
 namespace gjkdbg {
