@@ -181,8 +181,8 @@ void project(const EllipsoidCore<D, S>& core, const Vector<D, S>& p, ProjectionS
     t = t + step > 0 ? t + step : t / 8;
   }
   evaluate();
-  // The last of it. Brought onto the surface towards the centre instead, a point beside the rim of a thin disc would move along the disc. That is for what t
-  // does not tell: a short axis along which p is nothing.
+  // What the last step left open of t. Brought onto the surface towards the centre instead, a point beside the rim of a thin disc would move along the disc: that
+  // is for a t that f does not tell so well, where p is next to nothing along a short axis.
   const S off = f - 1, last = off / (2 * slope);
   const bool told = std::abs(last) < S(1e-3) * (least + t);
   const S onto = told ? S(1) : off * off < std::numeric_limits<S>::epsilon() ? 1 - off / 2 : 1 / std::sqrt(f);
