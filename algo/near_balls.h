@@ -14,8 +14,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "algo/epa.h"
 #include "algo/gjk.h"
@@ -25,7 +27,8 @@
 
 namespace gjkdbg {
 
-template <class Difference_, class Trace>
+/// Knows nothing of a trace, so that GJK and EPA on the rests are compiled once: who wants to see an axis is called.
+template <class Difference_>
 class NearBalls {
   using Difference = Difference_;
   static constexpr int D = Difference::D;
@@ -72,13 +75,15 @@ class NearBalls {
   };
 
  public:
+  /// Axis number `axis` with its support, the least height so far, and what none is below.
+  using Look = std::function<void(int axis, const V& n, const Point& support, S lowest, S least)>;
+
   /// Keeps the references. `tolerance`: of the depth, relative.
-  NearBalls(Difference& difference, const RollingBalls<S>& balls, S tolerance, Trace& trace)
-      : difference_(difference), balls_(balls), rho_(balls.a + balls.b), tolerance_(tolerance), floor_(difference.rounding_floor()), enough_(std::max(floor_, tolerance * rho_ / 8)), trace_(trace) {}
+  NearBalls(Difference& difference, const RollingBalls<S>& balls, S tolerance, Look looked)
+      : difference_(difference), balls_(balls), rho_(balls.a + balls.b), tolerance_(tolerance), floor_(difference.rounding_floor()), enough_(std::max(floor_, tolerance * rho_ / 8)), look_(std::move(looked)) {}
 
   /// `overlapping` where the depth is known: within rounding, or the tolerance.
   OutlineDepth<D, S> run(int most) {
-    trace_(SatBegan<V, Viewed>{0, 0, 0});
     Rests rests(*this);
     GjkOptions<D, S> from_b;
     from_b.tolerance = tolerance_, from_b.max_iterations = most, from_b.direction = difference_.towards_b();
@@ -92,8 +97,7 @@ class NearBalls {
     const bool known = height - least_ <= std::max(4 * floor_, tolerance_ * height);
     if (height < -floor_) found.status = SatStatus::separated;
     else if (known && height > floor_) found.status = SatStatus::overlapping;
-    trace_(SatEnded<V, Viewed>{looked_, found.status, normal_, static_cast<double>(-height) - static_cast<double>(difference_.radius())});
-    return {found, {V(point_a_ + balls_.a * normal_), V(point_b_ - balls_.b * normal_)}, std::max(S(0), height - least_)};
+    return {found, SatWitnesses<D, S>{V(point_a_ + balls_.a * normal_), V(point_b_ - balls_.b * normal_)}, std::max(S(0), height - least_)};
   }
 
  private:
@@ -119,18 +123,14 @@ class NearBalls {
     const Point point = difference_.support(n);
     ++looked_;
     lowest_ = std::min(lowest_, n.dot(point.w));
-    if constexpr (traced<Trace>) {
-      const double radius = static_cast<double>(difference_.radius());
-      trace_(SupportQueried<V, Viewed>{looked_, Phase::sat, n, point.vertex, point.a, point.b, point.w});
-      trace_(AxisTested<V, Viewed>{looked_, AxisSource::outline, point.vertex, n, static_cast<double>(-n.dot(point.w)) - radius, static_cast<double>(-lowest_ - floor_) - radius, static_cast<double>(floor_ - least_) - radius});
-    }
+    if (look_) look_(looked_, n, point, lowest_, least_);
     return point;
   }
 
   Difference& difference_;
   const RollingBalls<S> balls_;
   const S rho_, tolerance_, floor_, enough_;
-  Trace& trace_;
+  const Look look_;
   int looked_ = 0;
   S lowest_ = std::numeric_limits<S>::infinity();  ///< of the heights
   S least_ = unknown;                              ///< that a height is, as far as is known
@@ -140,8 +140,24 @@ class NearBalls {
 /// Unset where the bodies are nothing like balls: see RollingBalls. `most`: iterations of GJK, and of EPA.
 template <class Difference, class Trace>
 std::optional<OutlineDepth<Difference::D, typename Difference::S>> near_balls(Difference& difference, typename Difference::S tolerance, int most, Trace& trace) {
-  if constexpr (Difference::D > 1 && requires { difference.a().core(), difference.b().core(); })
-    if (const auto balls = RollingBalls<typename Difference::S>::of(difference)) return NearBalls<Difference, Trace>(difference, *balls, tolerance, trace).run(most);
+  constexpr int D = Difference::D;
+  using S = typename Difference::S;
+  using V = Vector<D, S>;
+  if constexpr (D > 1 && requires { difference.a().core(), difference.b().core(); }) {
+    const auto balls = RollingBalls<S>::of(difference);
+    if (!balls) return std::nullopt;
+    typename NearBalls<Difference>::Look look;
+    const double radius = static_cast<double>(difference.radius()), floor = static_cast<double>(difference.rounding_floor());
+    if constexpr (traced<Trace>)
+      look = [&trace, radius, floor](int axis, const V& n, const SupportPoint<D, S>& point, S lowest, S least) {
+        trace(SupportQueried<V, Viewed>{axis, Phase::sat, n, point.vertex, point.a, point.b, point.w});
+        trace(AxisTested<V, Viewed>{axis, AxisSource::outline, point.vertex, n, static_cast<double>(-n.dot(point.w)) - radius, -static_cast<double>(lowest) - floor - radius, floor - static_cast<double>(least) - radius});
+      };
+    if constexpr (traced<Trace>) trace(SatBegan<V, Viewed>{0, 0, 0});
+    const OutlineDepth<D, S> found = NearBalls<Difference>(difference, *balls, tolerance, std::move(look)).run(most);
+    if constexpr (traced<Trace>) trace(SatEnded<V, Viewed>{found.sat.iterations, found.sat.status, found.sat.normal, -static_cast<double>(found.sat.depth) - radius});
+    return found;
+  }
   return std::nullopt;
 }
 

@@ -16,13 +16,7 @@
 // height along them, as for any polytope (algo/sat.h): four axes at most, for the ends share theirs. Its witness points lie on an edge of each section, or at a corner: in the middle of what the
 // edges share.
 //
-// With an ellipse the least height is searched for, an arc of directions t at a time. Where n1, n2 touch the section at w1, w2, no height between them is less than
-//
-//   max(n . w1, n . w2)   at its least: across w2 - w1, along -w1 or -w2, or at an end of the arc
-//
-// (EPA's bound in the plane, without its need of a polytope around the origin). The direction of the least of all these is the next to be looked along. An ellipse with half axes p <= q is
-// the sum of a disc of radius p^2 / q, its sharpest bend, and a convex rest: the disc counts exactly, by its radius, and w1, w2 are those of the rest. So concentric balls are proven at once,
-// and what is nearly a ball in a few steps.
+// With an ellipse the least height is searched for, an arc of directions t at a time (algo/outline_arcs.h).
 //
 // Axes that are not quite parallel are taken to be while that matters less than the tolerance. Turned upright, by a rotation that takes a unit vector along B's axis by s from where it is, no
 // point of B moves by more than s extent_B, and no height changes by more: the least height over all directions is no lower than the least found, less twice that.
@@ -36,6 +30,7 @@
 #include <utility>
 #include <variant>
 
+#include "algo/outline_arcs.h"
 #include "algo/sat.h"
 
 namespace gjkdbg {
@@ -50,6 +45,7 @@ struct Revolved {
 
   S widest() const { return std::max({top, bottom, across}); }
   S highest() const { return half + along; }
+  S reach() const { return std::hypot(widest(), highest()); }  ///< from the middle
   bool ellipse() const { return across > 0; }
   S sharpest() const { return ellipse() ? std::min(across, along) * (std::min(across, along) / std::max(across, along)) : S(0); }  ///< the least radius of its curve
   /// The same in another frame.
@@ -125,20 +121,39 @@ struct RevolvedPair {
   /// `tolerance`: relative, of the depth. Unset where the bodies are none of revolution, their axes not parallel, or the sum of their sections has no area.
   template <class Difference>
   static std::optional<RevolvedPair> of(const Difference& difference, S tolerance) {
+    const auto pair = of_any(difference);
+    if (!pair) return std::nullopt;
+    const S depth = static_cast<S>(difference.a().extent()) + static_cast<S>(difference.b().extent());  // it is no more than that
+    return pair->bearable(difference.rounding_floor(), tolerance * depth) ? pair : std::nullopt;
+  }
+  bool bearable(S rounding, S tolerance) const { return slack <= std::max(rounding, tolerance / 2); }
+
+  /// Where their axes are nearly parallel, and nearly on one line, so that EPA would need hundreds of faces, or more: see algo/tilted_axes.h.
+  template <class Difference>
+  static std::optional<RevolvedPair> of_tilted(const Difference& difference) {
+    const auto pair = of_any(difference);
+    return pair && pair->nearly_on_one_line() ? pair : std::nullopt;
+  }
+
+ private:
+  static constexpr S most_tilt = S(1) / 4, most_aside = S(1) / 64;  // of a radian; of the larger body
+
+  bool nearly_on_one_line() const {
+    const Vector<3, S> c = b.middle - a.middle;
+    return (a.axis - b.axis).norm() < most_tilt && (c - a.axis * a.axis.dot(c)).norm() < most_aside * std::max(a.reach(), b.reach());
+  }
+
+  template <class Difference>
+  static std::optional<RevolvedPair> of_any(const Difference& difference) {
     if constexpr (requires { difference.a().core(), difference.b().core(); }) {
       const auto a = revolved<S>(difference.a().core());
       if (!a) return std::nullopt;
       const auto b = revolved<S>(difference.b().core());
       if (!b || a->widest() + b->widest() == 0 || a->highest() + b->highest() == 0) return std::nullopt;
-      const S extent = static_cast<S>(difference.b().extent()), depth = static_cast<S>(difference.a().extent()) + extent;  // it is no more than that
-      const RevolvedPair pair = about_one_axis(*a, b->placed(difference.rotation(), difference.position()), extent);
-      if (pair.bearable(difference.rounding_floor(), tolerance * depth)) return pair;
+      return about_one_axis(*a, b->placed(difference.rotation(), difference.position()), static_cast<S>(difference.b().extent()));
     }
     return std::nullopt;
   }
-  bool bearable(S rounding, S tolerance) const { return slack <= std::max(rounding, tolerance / 2); }
-
- private:
   static RevolvedPair about_one_axis(Revolved<S> a, Revolved<S> b, S extent) {
     if (is_zero(a.axis)) a.axis = is_zero(b.axis) ? Vector<3, S>(Vector<3, S>::Unit(1)) : b.axis;
     if (is_zero(b.axis)) b.axis = a.axis;
@@ -190,7 +205,6 @@ class RevolutionSat {
     return u.cross(V(V::Unit(least))).normalized();
   }
   V in_space(const Flat& flat) const { return e_ * flat[0] + u_ * flat[1]; }
-  static S cross(const Flat& x, const Flat& y) { return x[0] * y[1] - x[1] * y[0]; }
 
   SupportPoint<3, S> look_along(const Flat& flat) {
     const V n = in_space(flat);
@@ -272,65 +286,24 @@ class RevolutionSat {
 
   // --- An ellipse among them --------------------------------------------------------------------------------------
 
-  /// Where n touches the sections, the discs of their sharpest bends taken off. Up to the next one no height is less than `least`, which is met along `towards`, if anywhere.
-  struct Touch {
-    Flat n, w;
-    S least;
-    Flat towards;
-  };
-  static constexpr int room = 128;
-  struct Touches {
-    std::array<Touch, room> list;  ///< by their angles
-    int count = 0;
-  };
-
   bool search(const Normals& normals, S tolerance, int most) {
-    Touches touches;
-    for (int i = 0; i < normals.of_a + normals.of_b; ++i) add(touches, normals.list[i].source, normals.list[i].n.stableNormalized());
-    for (const Flat& n : {Flat(0, -1), Flat(0, 1), Flat(1, 0)}) add(touches, AxisSource::outline, n);
-    const auto proven = [&] { return result_.depth - least_ <= std::max(floor_, tolerance * result_.depth - pair_.slack); };
-    for (int before = 0; !proven() && touches.count > before && touches.count < room && result_.iterations < most;) {
-      before = touches.count;
-      const Flat next = touches.list[at_].towards;  // which moves on
-      add(touches, AxisSource::outline, next);
+    OutlineArcs<S> arcs(bend_);
+    for (int i = 0; i < normals.of_a + normals.of_b; ++i) add(arcs, normals.list[i].source, normals.list[i].n.stableNormalized());
+    for (const Flat& n : {Flat(0, -1), Flat(0, 1), Flat(1, 0)}) add(arcs, AxisSource::outline, n);
+    const auto proven = [&] { return result_.depth - arcs.least().height <= std::max(floor_, tolerance * result_.depth - pair_.slack); };
+    for (int before = 0; !proven() && arcs.count() > before && !arcs.full() && result_.iterations < most;) {
+      before = arcs.count();
+      add(arcs, AxisSource::outline, arcs.least().towards);  // which moves on
     }
+    least_ = arcs.least().height;
     return proven();
   }
 
-  void add(Touches& touches, AxisSource source, const Flat& n) {
-    auto& list = touches.list;
-    const auto before = [](const Flat& x, const Flat& y) { return cross(x, y) > 0 || (cross(x, y) == 0 && x[1] < y[1]); };  // -u and u are across one another as well
-    int i = touches.count;
-    while (i > 0 && !before(list[i - 1].n, n)) --i;
-    if (i < touches.count && list[i].n == n) return;  // known: an end of a cylinder
+  void add(OutlineArcs<S>& arcs, AxisSource source, const Flat& n) {
+    if (arcs.knows(n)) return;  // an end of a cylinder
     const SupportPoint<3, S> point = look_along(n);
-    for (int k = touches.count++; k > i; --k) list[k] = list[k - 1];
-    list[i] = {n, Flat(e_.dot(point.w), u_.dot(point.w)) - n * bend_, 0, n};
-    if (i > 0) bound(list[i - 1], list[i]);
-    if (i + 1 < touches.count) bound(list[i], list[i + 1]);
-    least_ = std::numeric_limits<S>::infinity();
-    for (int k = 0; k + 1 < touches.count; ++k)
-      if (list[k].least < least_) least_ = list[k].least, at_ = k;
-    tell(source, n, point, all_round(touches) ? least_ : unknown);
-  }
-  bool all_round(const Touches& touches) const { return touches.list[0].n[1] == -1 && touches.list[touches.count - 1].n[1] == 1; }
-
-  /// The least of max(n . w1, n . w2) between n1 and n2, less than half a turn from each other.
-  void bound(Touch& first, const Touch& second) const {
-    first.least = std::numeric_limits<S>::infinity();
-    const auto consider = [&](const Flat& n) {
-      if (const S height = std::max(n.dot(first.w), n.dot(second.w)); height < first.least) first.least = height, first.towards = n;
-    };
-    const auto within = [&](const Flat& way) {
-      const S length = way.stableNorm();
-      if (!(length > 0)) return;
-      const Flat n = way / length;
-      if (cross(first.n, n) > 0 && cross(n, second.n) > 0) consider(n);
-    };
-    consider(first.n), consider(second.n);
-    const Flat chord = second.w - first.w;
-    within({chord[1], -chord[0]}), within(-first.w), within(-second.w);
-    first.least += bend_;
+    arcs.add(n, Flat(e_.dot(point.w), u_.dot(point.w)));
+    tell(source, n, point, arcs.all_round() ? arcs.least().height : unknown);
   }
 
   Difference& difference_;
@@ -341,7 +314,6 @@ class RevolutionSat {
   const V u_, e_;  ///< along the axes, and across them towards the origin
   Flat n_ = Flat::Zero();  ///< the normal
   S least_ = 0;            ///< that a height is, by all bounds
-  int at_ = 0;             ///< where
   SatResult<3, S> result_;
   SatWitnesses<3, S> witnesses_{V::Zero(), V::Zero()};
 };

@@ -16,6 +16,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "algo/simplex.h"
@@ -42,7 +43,7 @@ struct SatWitnesses {
 template <int D, class S>
 struct OutlineDepth {
   SatResult<D, S> sat;
-  SatWitnesses<D, S> points;
+  std::optional<SatWitnesses<D, S>> points;  ///< unset: to be found along the normal
   S slack;  ///< how much less the depth may be than the least height
 };
 

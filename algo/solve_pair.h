@@ -16,11 +16,10 @@
 #include "algo/epa.h"
 #include "algo/lent.h"
 #include "algo/mpr.h"
-#include "algo/near_balls.h"
+#include "algo/outline_depth.h"
 #include "algo/polygon_sat.h"
 #include "algo/projections.h"
 #include "algo/result.h"
-#include "algo/revolution_sat.h"
 #include "algo/run_gjk.h"
 #include "algo/sat.h"
 #include "algo/warm_start.h"
@@ -155,13 +154,11 @@ class PairSolver {
     witnesses(flat ? gjk_.simplex.point_a() : found.point_a, flat ? gjk_.simplex.point_b() : found.point_b, found.normal, -found.depth);
   }
 
-  /// False: neither bodies of revolution about parallel axes nor nearly balls, or not decided.
+  /// False: they have no outline that decides.
   bool outline_decides() {
-    std::optional<OutlineDepth<D, S>> found;
-    if constexpr (D == 3) found = revolution_sat(difference_, static_cast<S>(settings_.tolerance), settings_.max_iterations, trace_);
-    if (!found) found = near_balls(difference_, static_cast<S>(settings_.tolerance), settings_.max_iterations, trace_);
+    const auto found = outline_depth(difference_, static_cast<S>(settings_.tolerance), settings_.max_iterations, trace_);
     if (!found || !sat_answers(found->sat, false)) return false;
-    return sat_depth(found->sat, found->points, found->slack), true;
+    return sat_depth(found->sat, found->points ? *found->points : apart_along(found->sat), found->slack), true;
   }
 
   /// MPR has a plane between bodies that GJK could not tell apart: GJK's simplex has the nearest points it knew.
@@ -308,9 +305,12 @@ class PairSolver {
   void sat_witnesses(const SatResult<D, S>& found, const std::optional<SatWitnesses<D, S>>& known, Query query) {
     if (query == Query::distance) return inside_both(std::max(S(0), difference_.rounding_floor() - found.depth));
     if (settings_.penetration == Penetration::none) return overlap_only(static_cast<double>(difference_.rounding_floor()) - radius_ + rounding());
-    if (known) return sat_depth(found, *known);
+    sat_depth(found, known ? *known : apart_along(found));
+  }
+
+  SatWitnesses<D, S> apart_along(const SatResult<D, S>& found) {
     const GjkResult<D, S> touching = push_apart(found.normal, found.depth);
-    sat_depth(found, {touching.simplex.point_a(), touching.simplex.point_b() - push_});
+    return {touching.simplex.point_a(), touching.simplex.point_b() - push_};
   }
 
   /// `slack`: how much less the depth may be than the least that was found.

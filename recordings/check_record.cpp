@@ -281,7 +281,7 @@ void RecordCheck::result() {
   if (c_.recording.scene.scene.query == Query::distance) lower_ = std::max(lower_, 0.0), upper_ = r.intersecting ? unknowable : upper_;
   if (c_.has_supports && r.lower_bound && r.upper_bound) same_bounds("The result's", *r.lower_bound, *r.upper_bound);
   // Which points meet is looked for without a trace, contact points are, and of meshes the parts are put together: only the same again tells.
-  const bool more = c_.recording.settings.name == MethodName::sat || c_.recording.settings.name == MethodName::mpr || c_.recording.settings.penetration == Penetration::mpr;
+  const bool more = c_.recording.settings.name == MethodName::sat || c_.recording.settings.name == MethodName::mpr || c_.recording.settings.penetration == Penetration::mpr || meeting_unseen_;
   Number right = more ? std::max<Number>(supports_, r.support_calls) : supports_;
   if (c_.recording.generator == generator_name() && (more || r.contacts || !c_.has_supports)) {
     const Result again = c_.once_more();

@@ -101,7 +101,8 @@ class RecordCheck {
   std::set<int> standing_, chosen_;           ///< of these
   double height_ = 0;                         ///< the least along the normals chosen
   double section_slack_ = 0;                  ///< SAT's, of bodies of revolution: how much less the depth may be than the least along its axes
-  bool curved_section_ = false;               ///< whether an ellipsoid is among the bodies of revolution: SAT then has an outline
+  bool meeting_unseen_ = false;               ///< whether the points that meet are looked for without a trace, after the outline
+  bool curved_section_ = false;               ///< whether bodies may have an outline that SAT looks along between two directions
   double outlined_ = unknowable;              ///< what bounds the distance from above so far, by that outline
   std::array<Number, 3> axes_{};              ///< SAT's, by source: how many may still come; of an outline any number
   std::optional<recorded::ClosedFormBegan> segments_;

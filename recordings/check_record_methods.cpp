@@ -94,7 +94,7 @@ void RecordCheck::judge(const recorded::MprEnded& e) {
 /// the edges of a section count.
 void RecordCheck::count_axes(const recorded::SatBegan& e) {
   const auto& bodies = c_.recording.scene.scene.bodies;
-  section_slack_ = 0, curved_section_ = may_have_curved_outline(c_.recording);
+  section_slack_ = 0, curved_section_ = may_have_outline(c_.recording);
   if (!c_.has_supports || bodies.size() != 2) return;
   if (c_.recording.settings.name != MethodName::sat) return count_section_axes(e);
   const std::optional<Features> a = features_of(bodies[0].shape, c_.dimension), b = features_of(bodies[1].shape, c_.dimension);
@@ -112,8 +112,8 @@ void RecordCheck::count_axes(const recorded::SatBegan& e) {
 void RecordCheck::count_section_axes(const recorded::SatBegan& e) {
   if (!may_have_outline(c_.recording)) return;
   const std::optional<DepthOutline> right = outline_of(c_.recording);
-  if (!right) return contradiction("SAT begins, but the bodies are neither bodies of revolution with parallel axes nor nearly balls.");
-  section_slack_ = right->slack;
+  if (!right) return contradiction("SAT begins, but the bodies are neither bodies of revolution about parallel axes, or nearly one line, nor nearly balls.");
+  section_slack_ = right->slack, curved_section_ = right->curved, meeting_unseen_ = right->kind == OutlineKind::tilted_axes;
   if (e.faces_a != right->edges_of_a || e.faces_b != right->edges_of_b || e.edge_pairs != 0)
     contradiction("SAT is said to have " + std::to_string(e.faces_a) + " and " + std::to_string(e.faces_b) + " faces and " + std::to_string(e.edge_pairs) + " pairs of edges to look along; the outline of these bodies has " +
                   std::to_string(right->edges_of_a) + " and " + std::to_string(right->edges_of_b) + " edges that count.");

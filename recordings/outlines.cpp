@@ -59,7 +59,12 @@ std::optional<DepthOutline> of_revolution(const Recording& recording) {
   const auto pair = RevolvedPair<S>::of(placed.difference, static_cast<S>(recording.settings.tolerance));
   if (!pair) return std::nullopt;
   const auto normals = pair->normals();
-  return DepthOutline{false, normals.of_a, normals.of_b, static_cast<double>(pair->slack) / placed.scale};
+  return DepthOutline{OutlineKind::parallel_axes, normals.of_a, normals.of_b, static_cast<double>(pair->slack) / placed.scale, pair->curved()};
+}
+
+template <class S>
+bool about_nearly_one_line(const Recording& recording) {
+  return RevolvedPair<S>::of_tilted(Placed<3, S>(recording.scene.scene.bodies[0], recording.scene.scene.bodies[1]).difference).has_value();
 }
 
 }  // namespace
@@ -68,16 +73,13 @@ bool may_have_outline(const Recording& recording) {
   return asks_for_depth(recording) && (count_of_bodies(recording.scene.scene, [](const auto&) { return true; }) >= 2 || nearly_balls(recording));
 }
 
-bool may_have_curved_outline(const Recording& recording) {
-  if (!may_have_outline(recording)) return false;
-  return nearly_balls(recording) || count_of_bodies(recording.scene.scene, [](const auto& body) { return body.ellipse(); }) > 0;
-}
-
 std::optional<DepthOutline> outline_of(const Recording& recording) {
   if (!asks_for_depth(recording)) return std::nullopt;
+  const bool single = recording.settings.scalar == Scalar::float_precision, space = recording.scene.scene.dimension == 3;
   std::optional<DepthOutline> found;
-  if (recording.scene.scene.dimension == 3) found = recording.settings.scalar == Scalar::float_precision ? of_revolution<float>(recording) : of_revolution<double>(recording);
-  if (!found && nearly_balls(recording)) found = DepthOutline{true};
+  if (space) found = single ? of_revolution<float>(recording) : of_revolution<double>(recording);
+  if (!found && nearly_balls(recording)) found = DepthOutline{OutlineKind::near_balls};
+  if (!found && space && (single ? about_nearly_one_line<float>(recording) : about_nearly_one_line<double>(recording))) found = DepthOutline{OutlineKind::tilted_axes};
   return found;
 }
 

@@ -1,4 +1,4 @@
-// Outlines: of which bodies GJK's overlap is looked along by SAT, instead of EPA (algo/revolution_sat.h, algo/near_balls.h), whatever the method.
+// Outlines: of which bodies GJK's overlap is looked along by SAT, instead of EPA (algo/outline_depth.h), whatever the method.
 #pragma once
 
 #include <optional>
@@ -9,14 +9,16 @@ namespace gjkdbg {
 
 /// Whether two of the scene's bodies are of such kinds, and the query asks for a depth: it may depend on how they lie.
 bool may_have_outline(const Recording& recording);
-/// And whether that outline may be curved, so that directions between those known are looked along.
-bool may_have_curved_outline(const Recording& recording);
+
+/// Bodies of revolution about parallel axes, what is nearly balls, or bodies of revolution about nearly one line.
+enum class OutlineKind { parallel_axes, near_balls, tilted_axes };
 
 /// Of two bodies as they lie.
 struct DepthOutline {
-  bool near_balls = false;  ///< or of revolution
+  OutlineKind kind = OutlineKind::parallel_axes;
   int edges_of_a = 0, edges_of_b = 0;
-  double slack = 0;         ///< how much less the depth may be than is found along them
+  double slack = 0;    ///< how much less the depth may be than is found along them
+  bool curved = true;  ///< or all of its edges are known
 };
 /// Unset: none. The scene's two bodies must be convex.
 std::optional<DepthOutline> outline_of(const Recording& recording);

@@ -106,6 +106,23 @@ TEST_F(Newcomer, IsToldWhatIsNearlyABall) {
   EXPECT_GE(axes, 20);
 }
 
+TEST_F(Newcomer, IsToldWhatIsAboutNearlyOneLine) {
+  app.open_gallery("nearly-one-line");
+  int axes = 0;
+  for (std::size_t step = 0; step < session.count(); step += 3) {
+    session.go_to(step);
+    const Explanation told = explain(session.recording(), session.frame());
+    EXPECT_EQ(told.text.find("parallel"), std::string::npos) << told.text;
+    if (!kind_at<recorded::AxisTested>(session, step)) continue;
+    EXPECT_EQ(pseudo_code(session.recording(), step).title, "Depth of bodies about nearly one line");
+    ++axes;
+  }
+  EXPECT_GE(axes, 20);
+  for (std::size_t step = 0; step < session.count(); ++step)
+    if (kind_at<recorded::SatBegan>(session, step)) session.go_to(step);
+  EXPECT_NE(explain(session.recording(), session.frame()).text.find("sections through the line"), std::string::npos);
+}
+
 TEST_F(Newcomer, ReadsWhatEachChoiceIs) {
   const auto each_has_one = [](const auto& names) {
     for (const std::string_view name : names) EXPECT_FALSE(meaning_of_choice(name).empty()) << name;

@@ -35,6 +35,7 @@ bool of_two_boxes(const Recording& recording, std::size_t step);
 /// Whether SAT looks along an outline, for how deep bodies of revolution are, or what is nearly balls, after GJK.
 bool of_an_outline(const Recording& recording);
 bool of_near_balls(const Recording& recording);
+bool of_tilted_axes(const Recording& recording);
 /// The name it has in the scene, with the pictures' letter: "bullet (A)"; "body A" where it has none.
 std::string body_name(const Recording& recording, int body);
 /// What a polytope's border consists of: "face"; in the plane "edge", on a line "endpoint".

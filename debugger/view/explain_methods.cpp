@@ -48,6 +48,9 @@ Explanation ExplainMethods::operator()(const recorded::SatBegan& e) const {
   if (of_near_balls(recording))
     return {"What is nearly balls, instead of EPA", "From the middle of a ball every way out is as short, and here many are nearly: EPA would have to put faces everywhere. But each body is the sum of a ball, the largest that rolls within it, and a small rest. "
                                                     "The balls count exactly, and GJK and EPA look at the rests: every support is a way out of " + difference() + "."};
+  if (of_tilted_axes(recording))
+    return {"Sections instead of EPA", "Both bodies are bodies of revolution about nearly one line: a whole circle of ways out is nearly as short, and EPA would have to put face after face around it. But " + difference() + " changes little when it turns about that line. So it is looked at in sections through the line, and each "
+                                       "says of those beside it how much shorter a way out of them may be: where that is not enough, one between is looked at."};
   if (of_an_outline(recording)) {
     const auto any = [&](auto&& kind) { return std::any_of(recording.scene.scene.bodies.begin(), recording.scene.scene.bodies.end(), [&](const Body& body) { return kind(body.shape.geometry); }); };
     const bool ball = any([](const auto& g) { return std::holds_alternative<Sphere>(g); }), curve = any([](const auto& g) { return std::holds_alternative<Ellipsoid>(g); });
@@ -65,8 +68,9 @@ Explanation ExplainMethods::operator()(const recorded::SatBegan& e) const {
 Explanation ExplainMethods::operator()(const recorded::AxisTested& e) const {
   const std::string normal = (facet() == "edge" ? "the normal of an " : "the normal of a ") + facet() + " of ", from[] = {normal + a(), normal + b(), "across an edge of each"};
   if (of_an_outline(recording)) {
-    const std::string of = e.source == AxisSource::outline ? (of_near_balls(recording) ? "" : ", across the outline") : ", the normal of an edge of the outline that is " + (e.source == AxisSource::face_a ? a() : b()) + "'s";
-    const std::string room = e.upper_bound < 0 && e.upper_bound > e.lower_bound ? (of_near_balls(recording) ? " Nowhere is it less than " : " Nowhere on the outline is it less than ") + short_number(-e.upper_bound) + "." : "";
+    const bool no_plane = of_near_balls(recording) || of_tilted_axes(recording);
+    const std::string of = e.source == AxisSource::outline ? (no_plane ? "" : ", across the outline") : ", the normal of an edge of the outline that is " + (e.source == AxisSource::face_a ? a() : b()) + "'s";
+    const std::string room = e.upper_bound < 0 && e.upper_bound > e.lower_bound ? (no_plane ? " Nowhere is it less than " : " Nowhere on the outline is it less than ") + short_number(-e.upper_bound) + "." : "";
     return {"A way out", "Along " + short_vector(e.direction) + of + ", the bodies overlap by " + short_number(-e.distance) +
                              (e.lower_bound <= e.distance ? ", the least so far: the depth is no more than that." : ", more than along the best one so far.") + room};
   }
@@ -103,7 +107,9 @@ Explanation ExplainMethods::operator()(const recorded::SatEnded& e) const {
   const std::string title = "SAT ends: " + std::string(word_of(e.status));
   if (of_near_balls(recording) && e.status == SatStatus::overlapping)
     return {title, "The bodies overlap by " + short_number(-e.distance) + " along " + short_vector(e.normal) + ", and no direction leads out sooner: the balls' radii and what is known of the rests leave nothing less. That is the depth."};
-  if (of_near_balls(recording)) return {title, "What is left is within rounding, or a limit was reached before the bounds met. EPA goes on."};
+  if (of_tilted_axes(recording) && e.status == SatStatus::overlapping)
+    return {title, "The bodies overlap by " + short_number(-e.distance) + " along " + short_vector(e.normal) + ", and no direction leads out sooner, in the sections that were looked at or between them. That is the depth."};
+  if (of_near_balls(recording) || of_tilted_axes(recording)) return {title, "What is left is within rounding, or a limit was reached before the bounds met. EPA goes on."};
   if (of_an_outline(recording) && e.status == SatStatus::overlapping)
     return {title, "The outline is " + short_number(-e.distance) + " away, along " + short_vector(e.normal) + ". No direction leads out sooner, within the plane or beside it: that is the depth."};
   if (of_an_outline(recording)) return {title, "What is left is within rounding, or the axes are not parallel enough for the tolerance. EPA goes on."};

@@ -75,13 +75,20 @@ bool of_two_boxes(const Recording& recording, std::size_t step) {
 }
 
 bool of_an_outline(const Recording& recording) { return recording.settings.name != MethodName::sat; }
-bool of_near_balls(const Recording& recording) {
+namespace {
+
+bool has_outline(const Recording& recording, OutlineKind kind) {
   const Scene& scene = recording.scene.scene;
   const auto mesh = [](const Body& body) { return std::holds_alternative<Mesh>(body.shape.geometry); };
   if (!of_an_outline(recording) || scene.motion || std::any_of(scene.bodies.begin(), scene.bodies.end(), mesh)) return false;
   const std::optional<DepthOutline> outline = outline_of(recording);
-  return outline && outline->near_balls;
+  return outline && outline->kind == kind;
 }
+
+}  // namespace
+
+bool of_near_balls(const Recording& recording) { return has_outline(recording, OutlineKind::near_balls); }
+bool of_tilted_axes(const Recording& recording) { return has_outline(recording, OutlineKind::tilted_axes); }
 
 namespace {
 
@@ -114,6 +121,7 @@ struct Summarise {
   }
   std::string operator()(const recorded::SatBegan& e) const {
     if (of_near_balls(recording)) return "nearly balls";
+    if (of_tilted_axes(recording)) return "about nearly one line";
     if (of_an_outline(recording) && e.faces_a + e.faces_b == 0) return "a curved outline";
     if (of_an_outline(recording)) return std::to_string(e.faces_a) + " + " + std::to_string(e.faces_b) + " edges of the outline";
     return std::to_string(e.faces_a) + " + " + std::to_string(e.faces_b) + " faces, " + std::to_string(e.edge_pairs) + " edge pairs";
