@@ -61,18 +61,31 @@ class NearlyOneLine {
   std::mt19937_64 random_;
 };
 
-/// Least height of one section, between the directions next to the lowest of many.
-double lowest_rise(const NearlyOneLine& pair, double turn) {
-  constexpr int steps = 120;
-  double best = 0, least = pair.height(turn, 0);
-  for (int i = 0; i <= steps; ++i)
-    if (const double rise = std::numbers::pi * (double(i) / steps - 0.5), h = pair.height(turn, rise); h < least) least = h, best = rise;
-  double low = best - std::numbers::pi / steps, high = best + std::numbers::pi / steps;
-  for (int i = 0; i < 70; ++i) {
-    const double first = low + (high - low) * 0.382, second = low + (high - low) * 0.618;
-    (pair.height(turn, first) < pair.height(turn, second) ? high : low) = pair.height(turn, first) < pair.height(turn, second) ? second : first;
+/// Of a function on low ... high with one least value.
+template <class Function>
+double least_between(double low, double high, int steps, const Function& f) {
+  double least = std::min(f(low), f(high));
+  for (int i = 0; i < steps; ++i) {
+    const double first = low + (high - low) * 0.382, second = low + (high - low) * 0.618, at_first = f(first), at_second = f(second);
+    (at_first < at_second ? high : low) = at_first < at_second ? second : first;
+    least = std::min({least, at_first, at_second});
   }
-  return std::min(least, pair.height(turn, (low + high) / 2));
+  return least;
+}
+
+/// Least height of one section: around every direction of many that is lower than those beside it.
+double lowest_rise(const NearlyOneLine& pair, double turn) {
+  constexpr int steps = 60;
+  const auto rise = [](int i) { return std::numbers::pi * (double(i) / steps - 0.5); };
+  std::array<double, steps + 1> heights;
+  for (int i = 0; i <= steps; ++i) heights[static_cast<std::size_t>(i)] = pair.height(turn, rise(i));
+  const auto at = [&](int i) { return heights[static_cast<std::size_t>(i)]; };
+  double least = std::min(heights.front(), heights.back());
+  for (int i = 0; i <= steps; ++i) {
+    const int before = std::max(0, i - 1), after = std::min(steps, i + 1);
+    if (at(i) <= at(before) && at(i) <= at(after)) least = std::min(least, least_between(rise(before), rise(after), 65, [&](double x) { return pair.height(turn, x); }));
+  }
+  return least;
 }
 
 /// Around every section that is lower than those beside it.
@@ -85,12 +98,7 @@ double least_of_all(const NearlyOneLine& pair) {
   double least = at(0);
   for (int i = 0; i < sections; ++i) {
     if (at(i) > at(i - 1) || at(i) > at(i + 1)) continue;
-    double low = apart * (i - 1), high = apart * (i + 1);
-    for (int k = 0; k < 45; ++k) {
-      const double first = low + (high - low) * 0.382, second = low + (high - low) * 0.618;
-      (lowest_rise(pair, first) < lowest_rise(pair, second) ? high : low) = lowest_rise(pair, first) < lowest_rise(pair, second) ? second : first;
-    }
-    least = std::min({least, at(i), lowest_rise(pair, (low + high) / 2)});
+    least = std::min(least, least_between(apart * (i - 1), apart * (i + 1), 45, [&](double turn) { return lowest_rise(pair, turn); }));
   }
   return least;
 }
