@@ -293,7 +293,8 @@ class RevolutionSat {
     const auto proven = [&] { return result_.depth - arcs.least().height <= std::max(floor_, tolerance * result_.depth - pair_.slack); };
     for (int before = 0; !proven() && arcs.count() > before && !arcs.full() && result_.iterations < most;) {
       before = arcs.count();
-      add(arcs, AxisSource::outline, arcs.least().towards);  // which moves on
+      const Flat next = arcs.least().towards;  // which moves on
+      add(arcs, AxisSource::outline, next);
     }
     least_ = arcs.least().height;
     return proven();

@@ -230,7 +230,7 @@ struct SatBegan {
 
 /// Along the unit axis `direction` (from body 0 towards body 1) the bodies are `distance` apart; negative: they overlap by
 /// that much. `vertex` is the support that says so. `lower_bound` is of the bodies' signed distance, by the widest axis so far; `upper_bound` is NaN
-/// (null in a file), for axes give none, but of an outline with an ellipse (algo/revolution_sat.h) and of what is nearly balls (algo/near_balls.h).
+/// (null in a file), for axes give none, but of an outline that is not all edges (algo/outline_depth.h).
 template <class V, class Store>
 struct AxisTested {
   static constexpr std::string_view kind = "axis_tested";
