@@ -148,7 +148,14 @@ class ClosedForm {
       if (free_u && free_v) {
         const V across = u_.cross(v_);
         const S squared = across.dot(across);
-        if (squared > S(1e-6) * uu_ * vv_) n.w = across * (across.dot(c) / squared);
+        if (squared > S(1e-6) * uu_ * vv_) {
+          n.w = across * (across.dot(c) / squared);
+          return;
+        }
+        // Nearly parallel: across u, and across what of v is across u, as far as that is more than rounding.
+        n.w -= u_ * (n.w.dot(u_) / uu_);
+        const V aside = v_ - u_ * (uv_ / uu_);
+        if (const S length = aside.norm(), bar = 1000 * std::numeric_limits<S>::epsilon() * std::sqrt(vv_); length > bar) n.w -= aside * (n.w.dot(aside) / (length * length));
         return;
       }
     }

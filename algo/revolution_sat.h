@@ -46,6 +46,11 @@ struct Revolved {
   S widest() const { return std::max({top, bottom, across}); }
   S highest() const { return half + along; }
   S reach() const { return std::hypot(widest(), highest()); }  ///< from the middle
+  /// Along n, in the axes across (outwards) and along the axis.
+  S reach_along(const Vector<2, S>& n) const {
+    if (ellipse()) return Vector<2, S>(across * n[0], along * n[1]).norm();
+    return std::max(top * std::abs(n[0]) + half * n[1], bottom * std::abs(n[0]) - half * n[1]);
+  }
   bool ellipse() const { return across > 0; }
   S sharpest() const { return ellipse() ? std::min(across, along) * (std::min(across, along) / std::max(across, along)) : S(0); }  ///< the least radius of its curve
   /// The same in another frame.
@@ -123,8 +128,9 @@ struct RevolvedPair {
   static std::optional<RevolvedPair> of(const Difference& difference, S tolerance) {
     const auto pair = of_any(difference);
     if (!pair) return std::nullopt;
-    const S depth = static_cast<S>(difference.a().extent()) + static_cast<S>(difference.b().extent());  // it is no more than that
-    return pair->bearable(difference.rounding_floor(), tolerance * depth) ? pair : std::nullopt;
+    const S rounding = difference.rounding_floor();
+    if (pair->slack <= rounding) return pair;
+    return pair->bearable(rounding, tolerance * pair->about_as_deep()) ? pair : std::nullopt;
   }
   bool bearable(S rounding, S tolerance) const { return slack <= std::max(rounding, tolerance / 2); }
 
@@ -136,6 +142,20 @@ struct RevolvedPair {
   }
 
  private:
+  /// As the axes would be parallel, and of ellipses a quarter, of no more than the depth mostly.
+  S about_as_deep() const {
+    using Flat = Vector<2, S>;
+    const Vector<3, S> c = b.middle - a.middle;
+    const S along = a.axis.dot(c), aside = (c - a.axis * along).norm();
+    S least = std::numeric_limits<S>::infinity();
+    const auto consider = [&](const Flat& n) { least = std::min(least, a.reach_along(n) + b.reach_along(-n) - aside * n[0] - along * n[1]); };
+    const Normals edges = normals();
+    for (int i = 0; i < edges.of_a + edges.of_b; ++i) consider(edges.list[i].n.stableNormalized());
+    if (!curved()) return least;
+    consider({1, 0}), consider({0, 1}), consider({0, -1});
+    return least / 4;
+  }
+
   static constexpr S most_tilt = S(1) / 4, most_aside = S(1) / 64;  // of a radian; of the larger body
 
   bool nearly_on_one_line() const {
@@ -249,7 +269,7 @@ class RevolutionSat {
     if (a.ellipse() && b.ellipse()) t = (low_a * bend_at(b, n_) + (low_b + from_a) * bend_at(a, n_)) / (bend_at(a, n_) + bend_at(b, n_));
     if (!a.ellipse()) t = std::clamp(t, low_a, high_a);
     if (!b.ellipse()) t = std::clamp(t, low_b + from_a, high_b + from_a);
-    const V nearest = a.middle + result_.normal * highest(a, n_) + across_n * t;
+    const V nearest = a.middle + result_.normal * a.reach_along(n_) + across_n * t;
     return {nearest, nearest - result_.normal * result_.depth};
   }
 
@@ -265,19 +285,13 @@ class RevolutionSat {
     const S height = of_ellipse(r, n, n)[0], p = r.across / height, q = r.along / height;
     return p * q * q * r.across;
   }
-  static S highest(const Revolved<S>& r, const Flat& n) {
-    if (r.ellipse()) return of_ellipse(r, n, n)[0];
-    S most = -std::numeric_limits<S>::infinity();
-    for (const Flat& corner : corners(r)) most = std::max(most, n.dot(corner));
-    return most;
-  }
   /// Where the corners that are the farthest along n, but for rounding, lie along an edge across it.
   std::pair<S, S> edge(const Revolved<S>& r, const Flat& n, const Flat& along) const {
     if (r.ellipse()) {
       const S at = of_ellipse(r, n, along)[1];
       return {at, at};
     }
-    const S bar = highest(r, n) - floor_;
+    const S bar = r.reach_along(n) - floor_;
     S low = std::numeric_limits<S>::infinity(), high = -low;
     for (const Flat& corner : corners(r))
       if (n.dot(corner) >= bar) low = std::min(low, along.dot(corner)), high = std::max(high, along.dot(corner));

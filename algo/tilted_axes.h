@@ -45,15 +45,15 @@ class TiltedAxes {
   /// Keeps references.
   TiltedAxes(Difference& difference, const RevolvedPair<S>& pair, Trace& trace) : difference_(difference), trace_(trace), floor_(difference.rounding_floor()), pair_(pair), bend_(pair.a.sharpest() + pair.b.sharpest()) {}
 
-  /// `overlapping` where the depth is known within rounding, or this tolerance, a part of it. In no more intervals than EPA would have faces by `most` steps.
+  /// `overlapping` where the depth is known within rounding, or this tolerance, a part of it. With some 16 supports for each of `most`, of which EPA's steps would take longer.
   const SatResult<3, S>& run(S tolerance, int most) {
     trace_(SatBegan<V, Viewed>{0, 0, 0});
-    tolerance_ = tolerance, most_ = 4 * std::int64_t{most};
+    tolerance_ = tolerance, most_ = 16 * std::int64_t{most};
     turn_about(flattest_is_b() ? pair_.b : pair_.a);
     down_ = look_along(-u_), up_ = look_along(u_);
     for (int k = 0; k < quarters; ++k) examine({std::numbers::pi_v<S> * S(k) * 2 / quarters, std::numbers::pi_v<S> / quarters, 0});
     settle();
-    while (count_ > 0 && !near_enough(least_) && count_ + 2 < room && examined_ < most_) {
+    while (count_ > 0 && !near_enough(least_) && count_ + 2 < room && result_.iterations < most_) {
       const Interval widest = take_least();
       // The middle, which may be where the least is, a ninth; what lies beside it is seldom as near.
       const S ninth = widest.width / 9;
@@ -119,7 +119,6 @@ class TiltedAxes {
 
   /// Sections through the axis at the interval's middle, until no height of it is near the least that is known, or the interval is what is left open.
   void examine(Interval interval) {
-    ++examined_;
     const V e = std::cos(interval.middle) * e1_ + std::sin(interval.middle) * e2_;
     const S beside = c_.dot(u_.cross(e));  // c . e'(p)
     // Of the part of c the curve is c . e, that of -c . n and of its n_e.
@@ -133,7 +132,7 @@ class TiltedAxes {
     touch({0, -1}, down_), touch({0, 1}, up_);
     // Beside no cylinder's side, which has its normal between two that are looked along.
     for (const S angle : {S(-0.61), S(0.37)}) touch({std::cos(angle), std::sin(angle)}, look_along(in_space(e, {std::cos(angle), std::sin(angle)})));
-    while (!near_enough(arcs.least().height) && !arcs.full()) {
+    while (!near_enough(arcs.least().height) && !arcs.full() && result_.iterations < most_) {
       const auto open = arcs.least();
       const V n = in_space(e, open.towards);
       if (arcs.knows(open.towards)) break;
@@ -167,7 +166,7 @@ class TiltedAxes {
   V u_, off_, e1_, e2_;  ///< the axis, what it is from the other's, and two across it
   V c_;                  ///< from A's middle to B's
   S tolerance_ = 0, least_ = unknown, settled_ = std::numeric_limits<S>::infinity();
-  std::int64_t most_ = 0, examined_ = 0;
+  std::int64_t most_ = 0;  ///< supports
   int count_ = 0;
   SupportPoint<3, S> down_, up_;
   std::array<Interval, room> list_;  ///< those not near enough

@@ -1,9 +1,11 @@
 // The closed form against exact arithmetic: points, segments, spheres and capsules, also parallel, crossing, coincident and of no length.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 #include "algo/solve.h"
+#include "recordings/check.h"
 #include "recordings/recording.h"
 #include "shapes/error.h"
 #include "tests/oracle/exact_polytopes.h"
@@ -123,6 +125,33 @@ TEST(ClosedForm, TracesWhatItComputes) {
     EXPECT_LE(std::max(ended.s, ended.t), 1);
     EXPECT_EQ(ended.lower_bound, *r.lower_bound);
     EXPECT_EQ(*r.signed_distance, *solve(scene, closed_form(scene)).signed_distance) << "the same with and without a trace";
+  }
+}
+
+/// Segments that cross at a small angle with a small gap between them: the way from one to the other stays across both, however short it is.
+TEST(ClosedForm, NearlyParallelSegmentsThatNearlyMeet) {
+  for (int k = 0; k < 200; ++k) {
+    std::mt19937 random(static_cast<unsigned>(k));
+    std::uniform_real_distribution<double> uniform(0.3, 0.7);
+    const double angle = std::pow(10, -1 - 10 * uniform(random)), gap = std::pow(10, -1 - 16 * uniform(random)), place = uniform(random);
+    Scene scene;
+    scene.dimension = 3, scene.query = Query::penetration;
+    for (const double half : {2.0, 0.5}) {
+      Body body{half == 2 ? "A" : "B", {}, identity_pose(3)};
+      body.shape.geometry = Capsule{0.5, half, 1};
+      scene.bodies.push_back(body);
+    }
+    const Eigen::Vector3d way = Eigen::Vector3d(0.6, 0, 0.8);
+    scene.bodies[1].pose.matrix = Eigen::AngleAxisd(angle, way).toRotationMatrix(), scene.bodies[1].pose.rotation = RotationMatrix{scene.bodies[1].pose.matrix};
+    scene.bodies[1].pose.position = gap * way + Eigen::Vector3d(0, place, 0);
+    SCOPED_TRACE(k);
+    SceneFile file;
+    file.scene = scene, file.method.name = MethodName::closed_form;
+    const Recording recording = record(file);
+    for (const Finding& finding : check(recording)) ADD_FAILURE() << finding.code << ": " << finding.message;
+    EXPECT_NEAR(*recording.result.signed_distance, gap - 1, 1e-15);
+    EXPECT_NEAR(std::abs(recording.result.normal->dot(way)), 1, 1e-12);
+    EXPECT_LE(*recording.result.upper_bound - *recording.result.lower_bound, 1e-13);
   }
 }
 

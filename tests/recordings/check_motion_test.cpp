@@ -220,12 +220,16 @@ void expect_honest(const SceneFile& scene, MethodName method, int limit) {
 TEST(CheckMotion, AnOverlapWhoseWayOutIsNotKnownIsClean) {
   const SceneFile cylinders = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "cast", "bodies": [
     {"shape": {"type": "cylinder", "radius": 1, "half_height": 2}, "velocity": [1, 0, 0]}, {"shape": {"type": "cylinder", "radius": 1, "half_height": 2}, "pose": {"rotation": {"axis": [0, 0, 1], "angle": 0.001}}}]})", {});
+  const SceneFile ellipsoids = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "cast", "bodies": [
+    {"shape": {"type": "ellipsoid", "radii": [1, 1.00001, 3]}, "velocity": [1, 0, 0]}, {"shape": {"type": "ellipsoid", "radii": [0.8, 0.80001, 2.5]}, "pose": {"rotation": {"axis": [0, 0, 1], "angle": 40}}}]})", {});
   const SceneFile ellipses = parse_scene(R"({"format": "gjk-scene", "version": 1, "dimension": 2, "query": "cast", "bodies": [
     {"shape": {"type": "ellipse", "radii": [1, 0.5]}, "velocity": [1, 0]}, {"shape": {"type": "ellipse", "radii": [0.7, 1]}, "pose": {"position": [0.3, 0.2]}}]})", {});
   for (const MethodName method : {MethodName::conservative_advancement, MethodName::root_finding, MethodName::ray_cast}) {
-    expect_honest(cylinders, method, 512);
-    EXPECT_EQ(cast_by(cylinders, method, 512).result.status, "initially_overlapping");
-    EXPECT_FALSE(cast_by(cylinders, method, 512).result.normal);
+    for (const SceneFile* overlap : {&cylinders, &ellipsoids}) {
+      expect_honest(*overlap, method, 512), expect_honest(*overlap, method, 3);
+      EXPECT_EQ(cast_by(*overlap, method, 512).result.status, "initially_overlapping");
+      EXPECT_EQ(cast_by(*overlap, method, 512).result.normal.has_value(), overlap == &cylinders);
+    }
     for (int limit = 1; limit <= 12; ++limit) expect_honest(ellipses, method, limit);
     EXPECT_FALSE(cast_by(ellipses, method, 4).result.normal) << word_of(method);
     EXPECT_TRUE(cast_by(ellipses, method, 512).result.normal) << word_of(method);
