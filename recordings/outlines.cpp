@@ -78,8 +78,8 @@ std::optional<DepthOutline> outline_of(const Recording& recording) {
   const bool single = recording.settings.scalar == Scalar::float_precision, space = recording.scene.scene.dimension == 3;
   std::optional<DepthOutline> found;
   if (space) found = single ? of_revolution<float>(recording) : of_revolution<double>(recording);
-  if (!found && nearly_balls(recording)) found = DepthOutline{OutlineKind::near_balls};
   if (!found && space && (single ? about_nearly_one_line<float>(recording) : about_nearly_one_line<double>(recording))) found = DepthOutline{OutlineKind::tilted_axes};
+  if (!found && nearly_balls(recording)) found = DepthOutline{OutlineKind::near_balls};
   return found;
 }
 
