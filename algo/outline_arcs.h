@@ -40,11 +40,11 @@ class OutlineArcs {
 
   /// How the height of a point changes with s.
   struct Move {
-    Flat rate = Flat::Zero(), curve = Flat::Zero();
+    Flat rate, curve;
     Move between(const Move& other, S share) const { return {rate + (other.rate - rate) * share, curve + (other.curve - curve) * share}; }
   };
   struct Turn {
-    S width = 0, rest = 0;
+    S width = 0, rest = 0;  ///< of s; of its square, what no point says
   };
 
   /// `bend`: radius of the discs.
@@ -58,7 +58,7 @@ class OutlineArcs {
   const Least& least() const { return least_; }
 
   /// n, unit, touches the outline at w, its disc included; neighbours are less than half a turn from each other, or -u and u.
-  void add(const Flat& n, const Flat& w, const Move& move = {}) {
+  void add(const Flat& n, const Flat& w, const Move& move = {Flat::Zero(), Flat::Zero()}) {
     int i = count_;
     while (i > 0 && !before(list_[at(i - 1)].n, n)) --i;
     for (int k = count_++; k > i; --k) list_[at(k)] = list_[at(k - 1)];

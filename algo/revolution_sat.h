@@ -142,7 +142,7 @@ struct RevolvedPair {
   }
 
  private:
-  /// As the axes would be parallel, and of ellipses a quarter, of no more than the depth mostly.
+  /// The depth, if the axes were parallel; with an ellipse a quarter of a few heights' least, which seldom is more than that.
   S about_as_deep() const {
     using Flat = Vector<2, S>;
     const Vector<3, S> c = b.middle - a.middle;
