@@ -16,6 +16,8 @@
 // The square of s: with y' = R'(s) y, M'' gives y' . (d x (u x n)) - y' . (u' x (d x n)) = (y' . u)(d . n) - (y' . d)(u' . n) - (y' . n)(d . u - d . u'), where d . u = -d . u' = |d|^2 / 2, and
 // from s = 0 on each of the products changes by no more than s |d| |y| and a part of |d|^2 |y|.
 //
+// Turned about u' instead, it is A's points that move: the same, with x for y and u for u'.
+//
 // So around the section at p0 all sections no farther than s are as high along (t), but for a point's rate and the square of s: the depth is bounded by arcs of t and intervals of p (algo/outline_arcs.h). An interval
 // where the bound is not yet near enough is divided, at first where the least may lie. This is branch and bound (Land & Doig 1960), over the sphere. The square shrinks with |u - u'| and r, so that few
 // intervals are needed where EPA needs most faces.
