@@ -147,12 +147,9 @@ std::optional<OutlineDepth<Difference::D, typename Difference::S>> near_balls(Di
     const auto balls = RollingBalls<S>::of(difference);
     if (!balls) return std::nullopt;
     typename NearBalls<Difference>::Look look;
-    const double radius = static_cast<double>(difference.radius()), floor = static_cast<double>(difference.rounding_floor());
+    const double radius = static_cast<double>(difference.radius());
     if constexpr (traced<Trace>)
-      look = [&trace, radius, floor](int axis, const V& n, const SupportPoint<D, S>& point, S lowest, S least) {
-        trace(SupportQueried<V, Viewed>{axis, Phase::sat, n, point.vertex, point.a, point.b, point.w});
-        trace(AxisTested<V, Viewed>{axis, AxisSource::outline, point.vertex, n, static_cast<double>(-n.dot(point.w)) - radius, -static_cast<double>(lowest) - floor - radius, floor - static_cast<double>(least) - radius});
-      };
+      look = [&trace, radius, floor = difference.rounding_floor()](int axis, const V& n, const SupportPoint<D, S>& point, S lowest, S least) { tell_axis(trace, axis, AxisSource::outline, n, point, lowest, least, floor, radius); };
     if constexpr (traced<Trace>) trace(SatBegan<V, Viewed>{0, 0, 0});
     const OutlineDepth<D, S> found = NearBalls<Difference>(difference, *balls, tolerance, std::move(look)).run(most);
     if constexpr (traced<Trace>) trace(SatEnded<V, Viewed>{found.sat.iterations, found.sat.status, found.sat.normal, -static_cast<double>(found.sat.depth) - radius});

@@ -47,6 +47,14 @@ struct OutlineDepth {
   S slack;  ///< how much less the depth may be than the least height
 };
 
+/// Tells a trace of an axis, number `axis`, its support, and the bounds so far: the least height, and what none is below (NaN: not known). `radius`: of both bodies.
+template <class Trace, int D, class S>
+void tell_axis(Trace& trace, int axis, AxisSource source, const Vector<D, S>& n, const SupportPoint<D, S>& point, S lowest, S least, S floor, double radius) {
+  using V = Vector<D, S>;
+  trace(SupportQueried<V, Viewed>{axis, Phase::sat, n, point.vertex, point.a, point.b, point.w});
+  trace(AxisTested<V, Viewed>{axis, source, point.vertex, n, static_cast<double>(-n.dot(point.w)) - radius, static_cast<double>(-lowest - floor) - radius, static_cast<double>(floor - least) - radius});
+}
+
 /// An edge of a core, with the normals of the faces beside it: zero where it has none.
 template <int D, class S>
 struct SatEdge {
@@ -168,12 +176,7 @@ class Sat {
     const S height = n.dot(point.w);
     ++result_.iterations;
     if (result_.iterations == 1 || height < result_.depth) result_.depth = height, result_.normal = n;
-    if constexpr (traced<Trace>) {
-      const double radius = static_cast<double>(difference_.radius());
-      trace_(SupportQueried<V, Viewed>{result_.iterations, Phase::sat, n, point.vertex, point.a, point.b, point.w});
-      trace_(AxisTested<V, Viewed>{result_.iterations, source, point.vertex, n, static_cast<double>(-height) - radius,
-                                   static_cast<double>(-result_.depth - floor_) - radius, std::numeric_limits<double>::quiet_NaN()});
-    }
+    if constexpr (traced<Trace>) tell_axis(trace_, result_.iterations, source, n, point, result_.depth, std::numeric_limits<S>::quiet_NaN(), floor_, static_cast<double>(difference_.radius()));
     return -height > enough_ + floor_;
   }
 

@@ -111,11 +111,7 @@ class TiltedAxes {
     const S height = n.dot(point.w);
     ++result_.iterations;
     if (result_.iterations == 1 || height < result_.depth) result_.depth = height, result_.normal = n;
-    if constexpr (traced<Trace>) {
-      const double radius = static_cast<double>(difference_.radius());
-      trace_(SupportQueried<V, Viewed>{result_.iterations, Phase::sat, n, point.vertex, point.a, point.b, point.w});
-      trace_(AxisTested<V, Viewed>{result_.iterations, AxisSource::outline, point.vertex, n, static_cast<double>(-height) - radius, static_cast<double>(-result_.depth - floor_) - radius, static_cast<double>(floor_ - least_) - radius});
-    }
+    if constexpr (traced<Trace>) tell_axis(trace_, result_.iterations, AxisSource::outline, n, point, result_.depth, least_, floor_, static_cast<double>(difference_.radius()));
     return point;
   }
 
