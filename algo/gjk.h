@@ -9,7 +9,8 @@
 // if that does not help, the loop ends as `stalled` with honest bounds. Bounds include the rounding floor.
 // Directions may carry Nesterov's momentum (Montaut et al., section IV): fewer steps where curvature is small; or be Newton's (algo/newton_direction.h);
 // or be smoothed in the first steps (algo/leading_direction.h): fewer steps of polytopes.
-// The sub-algorithm is a policy: ClosestFeature<D, S> closest(const V* w, int size). One that has a `Grown` (algo/grown_simplex.h) is asked that first.
+// The sub-algorithm is a policy: ClosestFeature<D, S> closest(const V* w, int size). One that has a `Grown` (algo/grown_simplex.h) is asked that first, within the loop;
+// otherwise the loop calls it by its address, and is compiled once for all of them.
 #pragma once
 
 #include <limits>
@@ -41,6 +42,30 @@ struct GjkResult {
   bool cores_overlap() const { return status == GjkStatus::enclosed || status == GjkStatus::touching; }
 };
 
+/// The feature of `size` vertices that is nearest the origin.
+template <int D, class S>
+using Opinion = ClosestFeature<D, S> (*)(const Vector<D, S>* w, int size);
+
+/// That the origin is inside is a proof, and has to be exact: where another sub-algorithm says so, signed volumes have the last word.
+template <class SubAlgorithm, int D, class S>
+ClosestFeature<D, S> opinion_of(const Vector<D, S>* w, int size) {
+  const ClosestFeature<D, S> feature = SubAlgorithm::closest(w, size);
+  if constexpr (!std::is_same_v<SubAlgorithm, SignedVolumes<D, S>>)
+    if (feature.enclosed) return SignedVolumes<D, S>::closest(w, size);
+  return feature;
+}
+
+/// `Grown` of a sub-algorithm, or void where it has none.
+template <class SubAlgorithm>
+struct GrownOf {
+  using type = void;
+};
+template <class SubAlgorithm>
+  requires requires { typename SubAlgorithm::Grown; }
+struct GrownOf<SubAlgorithm> {
+  using type = typename SubAlgorithm::Grown;
+};
+
 /// What rarely happens, apart from the loop's own numbers, which stay in registers as long as nothing else is shown where they lie.
 template <int D, class S>
 struct GjkSteps {
@@ -58,17 +83,16 @@ struct GjkSteps {
   }
 
   /// A sub-algorithm's opinion of all vertices.
-  template <class Closest>
-  [[gnu::noinline]] static ClosestFeature<D, S> of_list(const Simplex<D, S>& simplex, Closest closest) {
+  [[gnu::noinline]] static ClosestFeature<D, S> of_list(const Simplex<D, S>& simplex, Opinion<D, S> opinion) {
     std::array<V, D + 1> w;
     const int size = simplex.size();
     for (int i = 0; i < size; ++i) w[i] = simplex[i].w;
-    return closest(w.data(), size);
+    return opinion(w.data(), size);
   }
 };
 
-/// leads: directions other than -v in any step, not in the first ones alone.
-template <class Difference, class SubAlgorithm, class Trace, bool leads>
+/// Grown: what is asked first of a simplex that has grown by a vertex, or void. leads: directions other than -v in any step, not in the first ones alone.
+template <class Difference, class Grown, class Trace, bool leads>
 class Gjk {
   static constexpr int D = Difference::D;
   using S = typename Difference::S;
@@ -81,8 +105,8 @@ class Gjk {
  public:
   using Leading = LeadingDirection<Difference, leads>;
 
-  Gjk(Difference& difference, const Options& options, Trace& trace, GjkResult<D, S>& result, GjkSteps<D, S>& steps, Leading& leading)
-      : difference_(difference), options_(options), trace_(trace), floor_(difference.rounding_floor()), result_(result), steps_(steps), leading_(leading) {}
+  Gjk(Difference& difference, const Options& options, Opinion<D, S> opinion, Trace& trace, GjkResult<D, S>& result, GjkSteps<D, S>& steps, Leading& leading)
+      : difference_(difference), options_(options), opinion_(opinion), trace_(trace), floor_(difference.rounding_floor()), result_(result), steps_(steps), leading_(leading) {}
 
   [[gnu::always_inline]] void run() {
     trace_(GjkBegan<V, Viewed>{options_.direction});
@@ -116,8 +140,7 @@ class Gjk {
   }
 
  private:
-  template <class Sub>
-  static constexpr bool grows = requires { typename Sub::Grown; };
+  static constexpr bool grows = !std::is_void_v<Grown>;
 
   /// Asks for the support along d and takes its plane for the lower bound: all x of A - B have d.x <= d.w, so the
   /// signed distance is at least -d.w / |d|. The point lies in a place that is free, and stays so unless the simplex grows by it.
@@ -150,7 +173,7 @@ class Gjk {
       result_.simplex.add(point);
     }
     places_ = result_.simplex.places;
-    accept(of_list(opinion));
+    accept(of_list(opinion_));
     if constexpr (leads) leading_.keep(v());
   }
 
@@ -162,33 +185,25 @@ class Gjk {
 
   /// Takes the newest point and cuts the simplex down to the feature nearest the origin; false when that is no nearer than before (NaN included).
   [[gnu::always_inline]] bool reduce() {
-    if constexpr (grows<SubAlgorithm>) {
+    if constexpr (grows) {
       bool told = false;
-      const bool nearer = SubAlgorithm::Grown::find(result_.simplex.points, places_, newest_, newest_w_, steps_.lanes, [&](const auto& nearest) __attribute__((always_inline)) {
+      const bool nearer = Grown::find(result_.simplex.points, places_, newest_, newest_w_, steps_.lanes, [&](const auto& nearest) __attribute__((always_inline)) {
         told = nearest.places != 0;
         return told && accept(nearest);
       });
       if (told) [[likely]] return nearer;
     }
     places_ |= 1u << newest_;
-    return accept(of_list(opinion));
+    return accept(of_list(opinion_));
   }
   /// The second opinion, in twice the precision.
   [[gnu::always_inline]] bool reduce_again() {
     places_ |= 1u << newest_;
-    return accept(of_list([](const V* w, int size) { return WideClosestPoint<D, S>::of_boundary(w, size); }));
+    return accept(of_list(WideClosestPoint<D, S>::of_boundary));
   }
-  /// That the origin is inside is a proof, and has to be exact: where another sub-algorithm says so, signed volumes have the last word.
-  static Feature opinion(const V* w, int size) {
-    Feature feature = SubAlgorithm::closest(w, size);
-    if constexpr (!std::is_same_v<SubAlgorithm, SignedVolumes<D, S>>)
-      if (feature.enclosed) feature = SignedVolumes<D, S>::closest(w, size);
-    return feature;
-  }
-  template <class Closest>
-  [[gnu::always_inline]] Feature of_list(Closest closest) const {
+  [[gnu::always_inline]] Feature of_list(Opinion<D, S> opinion) const {
     result_.simplex.places = places_;
-    return GjkSteps<D, S>::of_list(result_.simplex, closest);
+    return GjkSteps<D, S>::of_list(result_.simplex, opinion);
   }
 
   [[gnu::always_inline]] bool accept(const Feature& feature) {
@@ -204,7 +219,7 @@ class Gjk {
   /// Weights are found when somebody wants them.
   template <class Nearest>
   [[gnu::always_inline]] bool accept(const Nearest& nearest) {
-    if (nearest.encloses() ? lower_bound_ > 0 : !falls_to(nearest.v, nearest.v_squared)) [[unlikely]] return SubAlgorithm::Grown::forget(steps_.lanes), false;
+    if (nearest.encloses() ? lower_bound_ > 0 : !falls_to(nearest.v, nearest.v_squared)) [[unlikely]] return Grown::forget(steps_.lanes), false;
     enclosed_ = nearest.encloses();
     if constexpr (traced<Trace>) places_ |= 1u << newest_, before_ = vertex_numbers();
     places_ = nearest.places;
@@ -226,8 +241,8 @@ class Gjk {
   }
 
   [[gnu::always_inline]] void weigh() {
-    if constexpr (grows<SubAlgorithm>)
-      if (!weighed_) SubAlgorithm::Grown::weigh(result_.simplex.points, places_, grown_by_, steps_.lanes, result_.simplex.weights);
+    if constexpr (grows)
+      if (!weighed_) Grown::weigh(result_.simplex.points, places_, grown_by_, steps_.lanes, result_.simplex.weights);
     weighed_ = true;
   }
 
@@ -331,6 +346,7 @@ class Gjk {
 
   Difference& difference_;
   const Options& options_;
+  const Opinion<D, S> opinion_;
   Trace& trace_;
   const S floor_;
   GjkResult<D, S>& result_;
@@ -351,16 +367,23 @@ class Gjk {
   Numbers before_;
 };
 
+/// The loop for all sub-algorithms with the same `Grown`, or with none.
+template <class Grown, class Difference, class Trace>
+void run_gjk_loop(Difference& difference, const GjkOptions<Difference::D, typename Difference::S>& options, Opinion<Difference::D, typename Difference::S> opinion,
+                  Trace& trace, GjkResult<Difference::D, typename Difference::S>& result) {
+  GjkSteps<Difference::D, typename Difference::S> steps;
+  const auto run = [&]<bool leads>(LeadingDirection<Difference, leads> leading) __attribute__((always_inline)) {
+    Gjk<Difference, Grown, Trace, leads>(difference, options, opinion, trace, result, steps, leading).run();
+  };
+  if (options.accelerated && options.acceleration != Acceleration::smoothed) run(LeadingDirection<Difference, true>(difference, options));
+  else run(LeadingDirection<Difference, false>(difference, options));
+}
+
 /// Runs GJK on a difference, into a new result. Directions, points and v are in the frame of body 0.
 template <class SubAlgorithm, class Difference, class Trace>
 void gjk(Difference& difference, const GjkOptions<Difference::D, typename Difference::S>& options, Trace& trace,
          GjkResult<Difference::D, typename Difference::S>& result) {
-  GjkSteps<Difference::D, typename Difference::S> steps;
-  const auto run = [&]<bool leads>(LeadingDirection<Difference, leads> leading) __attribute__((always_inline)) {
-    Gjk<Difference, SubAlgorithm, Trace, leads>(difference, options, trace, result, steps, leading).run();
-  };
-  if (options.accelerated && options.acceleration != Acceleration::smoothed) run(LeadingDirection<Difference, true>(difference, options));
-  else run(LeadingDirection<Difference, false>(difference, options));
+  run_gjk_loop<typename GrownOf<SubAlgorithm>::type>(difference, options, opinion_of<SubAlgorithm, Difference::D, typename Difference::S>, trace, result);
 }
 
 }  // namespace gjkdbg
