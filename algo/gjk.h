@@ -9,8 +9,8 @@
 // if that does not help, the loop ends as `stalled` with honest bounds. Bounds include the rounding floor.
 // Directions may carry Nesterov's momentum (Montaut et al., section IV): fewer steps where curvature is small; or be Newton's (algo/newton_direction.h);
 // or be smoothed in the first steps (algo/leading_direction.h): fewer steps of polytopes.
-// The sub-algorithm is a policy: ClosestFeature<D, S> closest(const V* w, int size). One that has a `Grown` (algo/grown_simplex.h) is asked that first, within the loop;
-// otherwise the loop calls it by its address, and is compiled once for all of them.
+// The sub-algorithm is a policy: ClosestFeature<D, S> closest(const V* w, int size), called by its address, so that the loop is compiled once for all of them;
+// its `Grown`, where that is not void, is asked first, within the loop (algo/grown_simplex.h).
 #pragma once
 
 #include <limits>
@@ -54,17 +54,6 @@ ClosestFeature<D, S> opinion_of(const Vector<D, S>* w, int size) {
     if (feature.enclosed) return SignedVolumes<D, S>::closest(w, size);
   return feature;
 }
-
-/// `Grown` of a sub-algorithm, or void where it has none.
-template <class SubAlgorithm>
-struct GrownOf {
-  using type = void;
-};
-template <class SubAlgorithm>
-  requires requires { typename SubAlgorithm::Grown; }
-struct GrownOf<SubAlgorithm> {
-  using type = typename SubAlgorithm::Grown;
-};
 
 /// What rarely happens, apart from the loop's own numbers, which stay in registers as long as nothing else is shown where they lie.
 template <int D, class S>
@@ -383,7 +372,7 @@ void run_gjk_loop(Difference& difference, const GjkOptions<Difference::D, typena
 template <class SubAlgorithm, class Difference, class Trace>
 void gjk(Difference& difference, const GjkOptions<Difference::D, typename Difference::S>& options, Trace& trace,
          GjkResult<Difference::D, typename Difference::S>& result) {
-  run_gjk_loop<typename GrownOf<SubAlgorithm>::type>(difference, options, opinion_of<SubAlgorithm, Difference::D, typename Difference::S>, trace, result);
+  run_gjk_loop<typename SubAlgorithm::Grown>(difference, options, opinion_of<SubAlgorithm, Difference::D, typename Difference::S>, trace, result);
 }
 
 }  // namespace gjkdbg

@@ -20,6 +20,8 @@ class Johnson {
   static constexpr int most = D + 1;
 
  public:
+  using Grown = void;
+
   /// `w`: `size` vertices, 1 <= size <= D + 1.
   static Feature closest(const V* w, int size) {
     Johnson j(w, size);

@@ -21,6 +21,7 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 #include "algo/closest_point_wide.h"
 #include "algo/enclosing_simplex.h"
@@ -31,18 +32,11 @@
 
 namespace gjkdbg {
 
-/// What a sub-algorithm of GJK says of a simplex that has just grown by a vertex.
 template <int D, class S>
-struct ForGrown {};
-template <class S>
-struct ForGrown<3, S> {
-  using Grown = GrownSimplex<S>;
-};
-
-template <int D, class S>
-struct SignedVolumes : ForGrown<D, S> {
+struct SignedVolumes {
   using V = Vector<D, S>;
   using Feature = ClosestFeature<D, S>;
+  using Grown = std::conditional_t<D == 3, GrownSimplex<S>, void>;  ///< of a simplex that has just grown by a vertex
 
   /// `size` vertices, 1 <= size <= D + 1.
   static Feature closest(const V* w, int size) {

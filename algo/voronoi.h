@@ -25,6 +25,7 @@ template <int D, class S>
 struct VoronoiRegions {
   using V = Vector<D, S>;
   using Feature = ClosestFeature<D, S>;
+  using Grown = void;
 
   /// `w`: `size` vertices, 1 <= size <= D + 1.
   static Feature closest(const V* w, int size) {
