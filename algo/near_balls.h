@@ -9,16 +9,17 @@
 //                                                rho - v where it lies outside, v away
 //
 // The ball counts exactly. The rests are small, as far as the bodies are like balls, and of them not all ways are nearly as short, so GJK and EPA are asked about these: a support of theirs is
-// the bodies' own along the same unit n, less rho n, and every one is an axis with its height. Where the rests are more than half of the bodies there is nothing to gain.
+// the bodies' own along the same unit n, less rho n, and every one is an axis with its height. Where the rests are more than half of the bodies there is nothing to gain. Where they are those of
+// spheroids, but for little, EPA gives up on them as well: then all their directions are divided (algo/ellipsoid_depth.h).
 #pragma once
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "algo/ellipsoid_depth.h"
 #include "algo/epa.h"
 #include "algo/gjk.h"
 #include "algo/lent.h"
@@ -75,14 +76,11 @@ class NearBalls {
   };
 
  public:
-  /// Axis number `axis` with its support, the least height so far, and what none is below.
-  using Look = std::function<void(int axis, const V& n, const Point& support, S lowest, S least)>;
-
   /// Keeps the references. `tolerance`: of the depth, relative.
-  NearBalls(Difference& difference, const RollingBalls<S>& balls, S tolerance, Look looked)
-      : difference_(difference), balls_(balls), rho_(balls.a + balls.b), tolerance_(tolerance), floor_(difference.rounding_floor()), enough_(std::max(floor_, tolerance * rho_ / 8)), look_(std::move(looked)) {}
+  NearBalls(Difference& difference, const RollingBalls<S>& balls, S tolerance, AxisLook<D, S> look)
+      : difference_(difference), balls_(balls), rho_(balls.a + balls.b), tolerance_(tolerance), floor_(difference.rounding_floor()), enough_(std::max(floor_, tolerance * rho_ / 8)), look_(std::move(look)) {}
 
-  /// `overlapping` where the depth is known: within rounding, or the tolerance.
+  /// `overlapping` where the depth is known: within rounding, or the tolerance. `undecided` with the least height that was found.
   OutlineDepth<D, S> run(int most) {
     Rests rests(*this);
     GjkOptions<D, S> from_b;
@@ -97,6 +95,7 @@ class NearBalls {
     const bool known = height - least_ <= std::max(4 * floor_, tolerance_ * height);
     if (height < -floor_) found.status = SatStatus::separated;
     else if (known && height > floor_) found.status = SatStatus::overlapping;
+    else found.normal = lowest_along_, found.depth = lowest_;
     return {found, SatWitnesses<D, S>{V(point_a_ + balls_.a * normal_), V(point_b_ - balls_.b * normal_)}, std::max(S(0), height - least_)};
   }
 
@@ -122,7 +121,7 @@ class NearBalls {
   Point look_along(const V& n) {
     const Point point = difference_.support(n);
     ++looked_;
-    lowest_ = std::min(lowest_, n.dot(point.w));
+    if (const S height = n.dot(point.w); height < lowest_) lowest_ = height, lowest_along_ = n;
     if (look_) look_(looked_, n, point, lowest_, least_);
     return point;
   }
@@ -130,11 +129,11 @@ class NearBalls {
   Difference& difference_;
   const RollingBalls<S> balls_;
   const S rho_, tolerance_, floor_, enough_;
-  const Look look_;
+  const AxisLook<D, S> look_;
   int looked_ = 0;
   S lowest_ = std::numeric_limits<S>::infinity();  ///< of the heights
   S least_ = unknown;                              ///< that a height is, as far as is known
-  V normal_ = V::Zero(), point_a_ = V::Zero(), point_b_ = V::Zero();  ///< points of the rests
+  V lowest_along_ = V::Zero(), normal_ = V::Zero(), point_a_ = V::Zero(), point_b_ = V::Zero();  ///< points of the rests
 };
 
 /// Unset where the bodies are nothing like balls: see RollingBalls. `most`: iterations of GJK, and of EPA.
@@ -146,12 +145,14 @@ std::optional<OutlineDepth<Difference::D, typename Difference::S>> near_balls(Di
   if constexpr (D > 1 && requires { difference.a().core(), difference.b().core(); }) {
     const auto balls = RollingBalls<S>::of(difference);
     if (!balls) return std::nullopt;
-    typename NearBalls<Difference>::Look look;
     const double radius = static_cast<double>(difference.radius());
-    if constexpr (traced<Trace>)
-      look = [&trace, radius, floor = difference.rounding_floor()](int axis, const V& n, const SupportPoint<D, S>& point, S lowest, S least) { tell_axis(trace, axis, AxisSource::outline, n, point, lowest, least, floor, radius); };
     if constexpr (traced<Trace>) trace(SatBegan<V, Viewed>{0, 0, 0});
-    const OutlineDepth<D, S> found = NearBalls<Difference>(difference, *balls, tolerance, std::move(look)).run(most);
+    OutlineDepth<D, S> found = NearBalls<Difference>(difference, *balls, tolerance, outline_look(difference, trace)).run(most);
+    if (const auto pair = BentPair<D, S>::of(difference); pair && found.sat.status == SatStatus::undecided) {
+      EllipsoidDepth<Difference> all_round(difference, *pair, outline_look(difference, trace));
+      all_round.go_on(found.sat.iterations, found.sat.normal);
+      found = all_round.run(tolerance, most);
+    }
     if constexpr (traced<Trace>) trace(SatEnded<V, Viewed>{found.sat.iterations, found.sat.status, found.sat.normal, -static_cast<double>(found.sat.depth) - radius});
     return found;
   }

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -53,6 +54,20 @@ void tell_axis(Trace& trace, int axis, AxisSource source, const Vector<D, S>& n,
   using V = Vector<D, S>;
   trace(SupportQueried<V, Viewed>{axis, Phase::sat, n, point.vertex, point.a, point.b, point.w});
   trace(AxisTested<V, Viewed>{axis, source, point.vertex, n, static_cast<double>(-n.dot(point.w)) - radius, static_cast<double>(-lowest - floor) - radius, static_cast<double>(floor - least) - radius});
+}
+
+/// Who wants to see axes: number `axis` with its support, the least height so far, and what none is below (NaN: not known).
+template <int D, class S>
+using AxisLook = std::function<void(int axis, const Vector<D, S>& n, const SupportPoint<D, S>& support, S lowest, S least)>;
+/// Empty where the trace is none. Keeps the reference.
+template <class Difference, class Trace>
+AxisLook<Difference::D, typename Difference::S> outline_look([[maybe_unused]] const Difference& difference, [[maybe_unused]] Trace& trace) {
+  using S = typename Difference::S;
+  if constexpr (traced<Trace>)
+    return [&trace, radius = static_cast<double>(difference.radius()), floor = difference.rounding_floor()](int axis, const typename Difference::V& n, const typename Difference::Point& point, S lowest, S least) {
+      tell_axis(trace, axis, AxisSource::outline, n, point, lowest, least, floor, radius);
+    };
+  return {};
 }
 
 /// An edge of a core, with the normals of the faces beside it: zero where it has none.

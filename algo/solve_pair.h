@@ -140,23 +140,23 @@ class PairSolver {
       if (found.decided && found.overlapping()) return portal_depth(found);
       if (found.decided) return apart_after_all(found);
     }
-    if (outline_decides()) return;
+    const S tolerance = static_cast<S>(settings_.tolerance);
+    const auto outline = outline_depth(difference_, tolerance, settings_.max_iterations, trace_);
+    if (outline_decides(outline)) return;
     EpaOptions<S> options;
-    options.tolerance = static_cast<S>(settings_.tolerance);
-    options.max_iterations = settings_.max_iterations;
+    options.tolerance = tolerance, options.max_iterations = settings_.max_iterations;
     Lent<EpaWorkspace<D, S>> workspace;  // looked up where EPA runs, and only there
     const EpaResult<D, S> found = epa(difference_, gjk_.simplex, options, *workspace, trace_);
-    result_->status = found.status;
     result_->iterations += found.iterations;
-    set_bounds(-found.upper_bound, -found.lower_bound);
+    if (!outline && found.status == EpaStatus::iteration_limit && outline_decides(depth_by_bends(difference_, tolerance, settings_.max_iterations, trace_))) return;
+    result_->status = found.status, set_bounds(-found.upper_bound, -found.lower_bound);
     const bool flat = found.face < 0;
     if (flat && gjk_.status == GjkStatus::enclosed) weigh_enclosing(gjk_.simplex);
     witnesses(flat ? gjk_.simplex.point_a() : found.point_a, flat ? gjk_.simplex.point_b() : found.point_b, found.normal, -found.depth);
   }
 
   /// False: they have no outline that decides.
-  bool outline_decides() {
-    const auto found = outline_depth(difference_, static_cast<S>(settings_.tolerance), settings_.max_iterations, trace_);
+  bool outline_decides(const std::optional<OutlineDepth<D, S>>& found) {
     if (!found || !sat_answers(found->sat, false)) return false;
     return sat_depth(found->sat, found->points ? *found->points : apart_along(found->sat), found->slack), true;
   }

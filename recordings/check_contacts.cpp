@@ -53,7 +53,8 @@ void check_limits(CheckContext& c) {
     if (next && limited) c.find("inconsistent", "The run before this step came to its limit, and no warning says that its contact is not known.", Finding::Severity::warning);
     if (gjk) limited = gjk->status == GjkStatus::iteration_limit;
     if (epa) limited = epa->status == EpaStatus::iteration_limit;
-    if (told || next) limited = false;
+    const auto* sat = std::get_if<recorded::SatEnded>(&event);
+    if (told || next || (sat && sat->status == SatStatus::overlapping)) limited = false;
   }
 }
 

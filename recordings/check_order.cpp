@@ -83,7 +83,8 @@ void OrderCheck::operator()(const Event& event) {
   const MethodName method = c_.recording.settings.name;
   const bool unkept = step == before_ && step == "support_queried of gjk" && (method == MethodName::gjk_accelerated || (method == MethodName::gjk_boolean && earlier_ == "gjk_began"));  // with momentum; the first two
   const bool yes_or_no = c_.recording.scene.scene.query == Query::intersect;  // MPR tells where GJK stalls
-  const bool second = before_ == "gjk_ended" && (step == "sat_began" || (step == "mpr_began" && (yes_or_no || c_.recording.settings.penetration == Penetration::mpr)));  // SAT, of bodies of revolution
+  const bool outline = step == "sat_began" && (before_ == "gjk_ended" || before_ == "epa_ended");
+  const bool second = outline || (before_ == "gjk_ended" && step == "mpr_began" && (yes_or_no || c_.recording.settings.penetration == Penetration::mpr));
   const bool answered = casting_ && !second && !begins_again(c_.recording, c_.step) && ends_query(before_) && (begins_query(step) || step == "state" || step == "contact_found" || step == "impulse_applied");  // a cast goes on with its own step
   const auto* end = std::get_if<recorded::CastEnded>(&event);
   const bool unknown = (casting_ && step == "warning" && (ends_query(before_) || before_ == "support_queried of cast")) || (before_ == "warning" && step == "cast_ended");  // that the way out is not known is said before the cast ends

@@ -5,6 +5,7 @@
 #include "algo/minkowski_difference.h"
 #include "algo/revolution_sat.h"
 #include "algo/rolling_balls.h"
+#include "algo/tilted_spheroids.h"
 #include "algo/working_scale.h"
 
 namespace gjkdbg {
@@ -63,14 +64,20 @@ std::optional<DepthOutline> of_revolution(const Recording& recording) {
 }
 
 template <class S>
-bool about_nearly_one_line(const Recording& recording) {
-  return RevolvedPair<S>::of_tilted(Placed<3, S>(recording.scene.scene.bodies[0], recording.scene.scene.bodies[1]).difference).has_value();
+std::optional<DepthOutline> about_nearly_one_line(const Recording& recording) {
+  const Placed<3, S> placed(recording.scene.scene.bodies[0], recording.scene.scene.bodies[1]);
+  if (tilted_spheroids(placed.difference)) return DepthOutline{OutlineKind::bends};
+  return RevolvedPair<S>::of_tilted(placed.difference) ? std::optional(DepthOutline{OutlineKind::tilted_axes}) : std::nullopt;
+}
+
+bool has_ellipsoid(const Scene& scene) {
+  return scene.dimension > 1 && std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) { return std::holds_alternative<Ellipsoid>(body.shape.geometry); });
 }
 
 }  // namespace
 
 bool may_have_outline(const Recording& recording) {
-  return asks_for_depth(recording) && (count_of_bodies(recording.scene.scene, [](const auto&) { return true; }) >= 2 || nearly_balls(recording));
+  return asks_for_depth(recording) && (count_of_bodies(recording.scene.scene, [](const auto&) { return true; }) >= 2 || has_ellipsoid(recording.scene.scene));
 }
 
 std::optional<DepthOutline> outline_of(const Recording& recording) {
@@ -78,8 +85,9 @@ std::optional<DepthOutline> outline_of(const Recording& recording) {
   const bool single = recording.settings.scalar == Scalar::float_precision, space = recording.scene.scene.dimension == 3;
   std::optional<DepthOutline> found;
   if (space) found = single ? of_revolution<float>(recording) : of_revolution<double>(recording);
-  if (!found && space && (single ? about_nearly_one_line<float>(recording) : about_nearly_one_line<double>(recording))) found = DepthOutline{OutlineKind::tilted_axes};
+  if (!found && space) found = single ? about_nearly_one_line<float>(recording) : about_nearly_one_line<double>(recording);
   if (!found && nearly_balls(recording)) found = DepthOutline{OutlineKind::near_balls};
+  if (!found && has_ellipsoid(recording.scene.scene)) found = DepthOutline{OutlineKind::bends};
   return found;
 }
 

@@ -1,4 +1,4 @@
-// Outlines: of which bodies GJK's overlap is looked along by SAT, instead of EPA (algo/outline_depth.h), whatever the method.
+// Outlines: of which bodies GJK's overlap is looked along by SAT, instead of EPA or after it (algo/outline_depth.h), whatever the method.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@ namespace gjkdbg {
 /// Whether two of the scene's bodies are of such kinds, and the query asks for a depth: it may depend on how they lie.
 bool may_have_outline(const Recording& recording);
 
-/// Bodies of revolution about parallel axes, what is nearly balls, or bodies of revolution about nearly one line.
-enum class OutlineKind { parallel_axes, near_balls, tilted_axes };
+/// Bodies of revolution about parallel axes, what is nearly balls, bodies of revolution about nearly one line; or ellipsoids by their bends: spheroids about nearly one line, and all that EPA gave up on.
+enum class OutlineKind { parallel_axes, near_balls, tilted_axes, bends };
 
 /// Of two bodies as they lie.
 struct DepthOutline {

@@ -124,7 +124,7 @@ struct Explain : ExplainMethods {
         return difference() + " has no " + measure() + " here: the " + bodies() + " touch without depth. The normal is across the flat difference.";
       case EpaStatus::separated: return "A support plane has the origin on its far side: the bodies are apart after all, by less than GJK could tell.";
       case EpaStatus::stalled: return "No " + face + " can be added in this precision. The last good " + face + " is the answer, and the bounds say how exact it is.";
-      case EpaStatus::iteration_limit: return "The limit is reached before the bounds met, as on round shapes with many directions equally good. The bounds say how much is known.";
+      case EpaStatus::iteration_limit: return "The limit is reached before the bounds met, as on round shapes with many directions equally good. The bounds say how much is known." + std::string(sat_follows() ? " How ellipsoids bend may tell more." : "");
       case EpaStatus::aborted: return "The solver ended without an answer.";
     }
     return {};

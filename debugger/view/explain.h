@@ -32,10 +32,11 @@ bool rounded(const Scene& scene);
 bool meets_at(const Recording& recording, std::size_t step);
 /// Whether a step is of the SAT of two boxes.
 bool of_two_boxes(const Recording& recording, std::size_t step);
-/// Whether SAT looks along an outline, for how deep bodies of revolution are, or what is nearly balls, after GJK.
+/// Whether SAT looks along an outline, for how deep bodies of revolution are, what is nearly balls, or ellipsoids by their bends, after GJK or EPA.
 bool of_an_outline(const Recording& recording);
 bool of_near_balls(const Recording& recording);
 bool of_tilted_axes(const Recording& recording);
+bool of_bends(const Recording& recording);
 /// The name it has in the scene, with the pictures' letter: "bullet (A)"; "body A" where it has none.
 std::string body_name(const Recording& recording, int body);
 /// What a polytope's border consists of: "face"; in the plane "edge", on a line "endpoint".

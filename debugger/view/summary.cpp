@@ -89,6 +89,7 @@ bool has_outline(const Recording& recording, OutlineKind kind) {
 
 bool of_near_balls(const Recording& recording) { return has_outline(recording, OutlineKind::near_balls); }
 bool of_tilted_axes(const Recording& recording) { return has_outline(recording, OutlineKind::tilted_axes); }
+bool of_bends(const Recording& recording) { return has_outline(recording, OutlineKind::bends); }
 
 namespace {
 
@@ -122,6 +123,7 @@ struct Summarise {
   std::string operator()(const recorded::SatBegan& e) const {
     if (of_near_balls(recording)) return "nearly balls";
     if (of_tilted_axes(recording)) return "about nearly one line";
+    if (of_bends(recording)) return "by the bends";
     if (of_an_outline(recording) && e.faces_a + e.faces_b == 0) return "a curved outline";
     if (of_an_outline(recording)) return std::to_string(e.faces_a) + " + " + std::to_string(e.faces_b) + " edges of the outline";
     return std::to_string(e.faces_a) + " + " + std::to_string(e.faces_b) + " faces, " + std::to_string(e.edge_pairs) + " edge pairs";

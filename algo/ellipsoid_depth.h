@@ -1,0 +1,201 @@
+// How deep an ellipsoid is in another body, most often an ellipsoid or a ball, by branch and bound over the directions; in the plane an ellipse.
+//
+// Where many ways out of A - B are nearly as short (from the middle of what is nearly a ball all of them, of what is nearly a spheroid a circle of them), EPA would have to put faces everywhere:
+// of width s, each leaves s^2 / 8 of the radius open. But about every direction that was looked along the bends of both bodies say what no height is below, and that is off by far less
+// (algo/height_model.h). So the sides of a cube, each a square of directions, are divided as long as a height less than the known least, by more than the tolerance, may lie in them: the one
+// with the lowest bound first. (Land & Doig 1960.) In each the middle is looked along and then, if that is not enough, by Newton's method the least, or the bottom of the valley, near it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "algo/height_model.h"
+#include "algo/lent.h"
+#include "algo/sat.h"
+
+namespace gjkdbg {
+
+/// The directions of A - B's heights that are left.
+template <int D, class S>
+class DirectionSquares {
+  static constexpr std::size_t corners = std::size_t{1} << (D - 1);
+
+ public:
+  /// Of a side of the cube about the origin; in the plane of the square's.
+  struct Square {
+    int side = 0;  ///< its normal's axis, + D for the negative one
+    bool divided = false;
+    std::array<S, D - 1> middle, half;
+    S least = -std::numeric_limits<S>::infinity();  ///< no height is below
+    HeightModel<D, S> model;                        ///< from within it, or near it
+    std::array<Vector<D, S>, corners> ends;         ///< directions of its corners
+
+    void place() {
+      for (std::size_t corner = 0; corner < corners; ++corner) {
+        std::array<S, D - 1> at = middle;
+        for (std::size_t i = 0; i < at.size(); ++i) at[i] += (corner >> i & 1) != 0 ? half[i] : -half[i];
+        ends[corner] = direction(at);
+      }
+    }
+
+    Vector<D, S> direction(const std::array<S, D - 1>& at) const {
+      Vector<D, S> d;
+      const int axis = side % D;
+      d[axis] = side < D ? S(1) : S(-1);
+      for (int i = 0; i + 1 < D; ++i) d[(axis + 1 + i) % D] = at[static_cast<std::size_t>(i)];
+      return d.normalized();
+    }
+    /// The longest chord from a direction to one of its own: none is farther than a corner.
+    S reach(const Vector<D, S>& from) const {
+      S most = 0;
+      for (const Vector<D, S>& end : ends) most = std::max(most, (end - from).squaredNorm());
+      return std::sqrt(most);
+    }
+  };
+
+  DirectionSquares() { heap_.reserve(room); }
+  void clear() { heap_.clear(); }
+  bool empty() const { return heap_.empty(); }
+  bool full() const { return heap_.size() + 2 > room; }
+  S least() const { return heap_.front().least; }
+  void push(const Square& square) {
+    heap_.push_back(square);
+    std::push_heap(heap_.begin(), heap_.end(), higher);
+  }
+  Square take_least() {
+    std::pop_heap(heap_.begin(), heap_.end(), higher);
+    const Square taken = heap_.back();
+    heap_.pop_back();
+    return taken;
+  }
+
+ private:
+  static constexpr std::size_t room = 1024;
+  static bool higher(const Square& x, const Square& y) { return x.least > y.least; }
+  std::vector<Square> heap_;
+};
+
+/// Knows nothing of a trace, so that it is compiled once: who wants to see an axis is called.
+template <class Difference>
+class EllipsoidDepth {
+  static constexpr int D = Difference::D;
+  using S = typename Difference::S;
+  using V = Vector<D, S>;
+  using Point = SupportPoint<D, S>;
+  using Squares = DirectionSquares<D, S>;
+  using Square = typename Squares::Square;
+
+ public:
+  /// Keeps the reference.
+  EllipsoidDepth(Difference& difference, const BentPair<D, S>& pair, AxisLook<D, S> look) : difference_(difference), bodies_(pair.bodies), floor_(difference.rounding_floor()), look_(std::move(look)) {}
+
+  /// Goes on from what others found: the axes that were looked along, of which this was the best.
+  void go_on(int looked, const V& best) { looked_ = looked, look_along(best); }
+
+  /// `overlapping` where the depth is known within rounding, or the tolerance, a part of it. With some 16 supports for each of `most`, of which EPA's steps would take longer.
+  OutlineDepth<D, S> run(S tolerance, int most_steps) {
+    const std::int64_t most = looked_ + 16 * std::int64_t{most_steps};
+    tolerance_ = tolerance;
+    Lent<Squares> lent;
+    Squares& squares = *lent;
+    squares.clear();
+    for (int side = 0; side < 2 * D; ++side) {
+      Square all;
+      all.side = side, all.middle.fill(0), all.half.fill(1);
+      examine(all, squares);
+    }
+    for (update(squares); !squares.empty() && !near_enough(squares.least()) && !squares.full() && looked_ < most; update(squares)) {
+      Square first = squares.take_least(), second;
+      const auto widest = std::max_element(first.half.begin(), first.half.end()) - first.half.begin();
+      const auto i = static_cast<std::size_t>(widest);
+      const S quarter = first.half[i] / 2;
+      first.half[i] = quarter, first.divided = true, second = first, first.middle[i] -= quarter, second.middle[i] += quarter;
+      examine(first, squares), examine(second, squares);
+    }
+    return answer();
+  }
+
+ private:
+  bool any() const { return lowest_ < std::numeric_limits<S>::max(); }
+  bool near_enough(S least) const { return lowest_ - least <= std::max(floor_, tolerance_ * lowest_); }
+
+  struct Touch {
+    HeightModel<D, S> model;
+    Point point;
+  };
+  Touch look_along(const V& n) {
+    const Point point = difference_.support(n);
+    ++looked_;
+    const Touch touch{HeightModel<D, S>(bodies_, n, point.w), point};
+    if (touch.model.height() < lowest_) lowest_ = touch.model.height(), best_ = touch;
+    if (look_) look_(looked_, n, point, lowest_, least_);
+    return touch;
+  }
+
+  /// Its bound, from where its model is of, its middle, and where Newton's method leads from there. What is not near enough is left to be divided.
+  void examine(Square& square, Squares& squares) {
+    constexpr int steps = 3;
+    square.place();
+    if (any()) bound_by(best_.model, square);
+    if (square.divided) bound(square);
+    for (int k = 0; k < steps && !near_enough(square.least); ++k) {
+      const S reach = k > 0 ? square.reach(square.model.direction()) : S(0);
+      const V n = k > 0 ? square.model.step(reach) : square.direction(square.middle);
+      if (k > 0 && (n - square.model.direction()).norm() <= reach / 1024) break;  // it is there
+      square.model = look_along(n).model;
+      bound(square);
+    }
+    if (near_enough(square.least)) settled_ = std::min(settled_, square.least);
+    else squares.push(square);
+  }
+  static void bound_by(const HeightModel<D, S>& model, Square& square) { square.least = std::max(square.least, model.least_within(square.reach(model.direction()))); }
+  static void bound(Square& square) { bound_by(square.model, square); }
+
+  void update(const Squares& squares) { least_ = squares.empty() ? settled_ : std::min(settled_, squares.least()); }
+
+  /// The least height's slope is what its points are off by: Newton's method takes that away, where heights no longer differ but for rounding.
+  OutlineDepth<D, S> answer() {
+    constexpr int steps = 8;
+    for (int k = 0; k < steps && best_.model.slope() > floor_ / 16; ++k) {
+      const Touch before = best_, next = look_along(before.model.step_down());
+      const bool better = next.model.slope() < before.model.slope() && next.model.height() <= before.model.height() + floor_ / 2;
+      best_ = better ? next : before;
+      if (!better) break;
+    }
+    const Touch found = best_;
+    look_along(V(found.model.direction()));  // so that the last axis is the answer's
+    SatResult<D, S> sat{SatStatus::undecided, looked_, found.model.direction(), found.model.height()};
+    if (lowest_ < -floor_) sat.status = SatStatus::separated;
+    else if (near_enough(least_) && lowest_ > floor_) sat.status = SatStatus::overlapping;
+    const bool across = found.model.slope() <= std::max(4 * floor_, tolerance_ * lowest_);
+    return {sat, across ? std::optional(SatWitnesses<D, S>{found.point.a, found.point.b}) : std::nullopt, std::max(S(0), sat.depth - least_)};
+  }
+
+  Difference& difference_;
+  const std::array<BentBody<D, S>, 2> bodies_;
+  const S floor_;
+  const AxisLook<D, S> look_;
+  S tolerance_ = 0;
+  int looked_ = 0;
+  S lowest_ = std::numeric_limits<S>::max();                                                            ///< of the heights
+  S settled_ = std::numeric_limits<S>::infinity(), least_ = std::numeric_limits<S>::quiet_NaN();  ///< that a height is, where that is near enough, and everywhere
+  Touch best_;  ///< of the least height
+};
+
+/// Witness points are the caller's to find where there are none. `most`: see EllipsoidDepth::run.
+template <class Difference, class Trace>
+OutlineDepth<Difference::D, typename Difference::S> ellipsoid_depth(Difference& difference, const BentPair<Difference::D, typename Difference::S>& pair, typename Difference::S tolerance, int most, Trace& trace) {
+  using V = typename Difference::V;
+  if constexpr (traced<Trace>) trace(SatBegan<V, Viewed>{0, 0, 0});
+  const auto found = EllipsoidDepth<Difference>(difference, pair, outline_look(difference, trace)).run(tolerance, most);
+  if constexpr (traced<Trace>) trace(SatEnded<V, Viewed>{found.sat.iterations, found.sat.status, found.sat.normal, -static_cast<double>(found.sat.depth) - static_cast<double>(difference.radius())});
+  return found;
+}
+
+}  // namespace gjkdbg

@@ -1,0 +1,203 @@
+// What the height of A - B is like about a direction, where one body or both are ellipsoids: what it is no less than, and where it may be least.
+//
+// Along a great circle from the unit direction d the directions are cos(s) d + sin(s) t, t across d. With M the matrix of an ellipsoid whose squared radii are its eigenvalues, its height there is
+// f(s) = sqrt(z), the height of a plane ellipse, which bends with the radius f'' + f:
+//
+//   z = h^2 + sin(2s) m.t + sin(s)^2 t.X t      h^2 = d.M d,  m = M d across d,  X = M - h^2 across d
+//   f'' + f = h^3 T(t) / z^(3/2)                h^3 T(t) = h^2 t.M t - (m.t)^2 = (d x t).adj(M) (d x t),  T(t) = t.T t
+//
+// z^(-3/2) is convex, so f'' + f >= T(t) (1 - 3 / (2 h^2) (sin(2s) m.t + sin(s)^2 t.X t)). By Sturm's comparison, for s <= pi,
+//
+//   f(s) = f(0) cos(s) + f'(0) sin(s) + int_0^s sin(s - r) (f'' + f)(r) dr
+//
+// and for 1, sin(2r), sin(r)^2 the integral is q^2 / 2, q^3 cos(s / 2) / 3, q^4 / 12, with the chord q = 2 sin(s / 2). A - B's height is the sum of the bodies', but for the part c . n of their
+// middles, which bends nowhere. A body that is no ellipsoid reaches as far as the point w that was its support, at least, and w . n bends nowhere either. With u = q t, h the height, g the slope (what of the support lies across d) of all,
+//
+//   h(n) >= h + cos(s / 2) (g.u - sum T(u) m.u / (2 h_k^2)) + u.(T - h) u / 2 - sum T(u) u.X u / (8 h_k^2)
+//
+// T - h is diagonal in axes e1, e2 across d; u.T u's other terms are shared out between u1^2 and u2^2, with |u1|, |u2| <= q. Where the first is next to nothing, all that is left along e1 is
+// u1^3 m1: that vanishes with the slope, so along a valley of directions that are nearly as near, the bound falls off by less than the valley's own heights differ. (A polytope's faces, EPA's,
+// know of no bends: their bound falls off by h u^2 / 2.)
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "shapes/support_mappings.h"
+
+namespace gjkdbg {
+
+/// How a body bends: an ellipsoid, by its squared radii in parts of the greatest, so that no power of a small one vanishes. Of all others it is only known that they bend nowhere inwards: zeros.
+template <int D, class S>
+struct BentBody {
+  Matrix<D, S> inverse;  ///< takes directions to its axes
+  Vector<D, S> squares = Vector<D, S>::Zero();
+  S greatest = 0;  ///< radius
+  S ball = 0;      ///< radius of the largest ball that rolls within it: of its sharpest bend
+
+  /// `axes`: of an ellipsoid.
+  static BentBody of(const EllipsoidCore<D, S>& ellipsoid, const Matrix<D, S>& axes) {
+    const S greatest = ellipsoid.radii.maxCoeff(), least = ellipsoid.radii.minCoeff();
+    return {axes.transpose(), (ellipsoid.radii / greatest).cwiseAbs2(), greatest, least * (least / greatest)};
+  }
+};
+
+/// Two bodies of which one, at least, is an ellipsoid.
+template <int D, class S>
+struct BentPair {
+  std::array<BentBody<D, S>, 2> bodies;
+  bool smooth;  ///< the other is one as well, or a point
+
+  /// Unset where there is none, or one is too flat for its bends to be told.
+  template <class Difference>
+  static std::optional<BentPair> of(const Difference& difference) {
+    if constexpr (D > 1 && requires { difference.a().core(), difference.b().core(); }) {
+      const auto *a = ellipsoid(difference.a().core()), *b = ellipsoid(difference.b().core());
+      if ((!a && !b) || (a && flat(*a)) || (b && flat(*b))) return std::nullopt;
+      const Matrix<D, S> own = Matrix<D, S>::Identity(), other = difference.rotation();
+      return BentPair{{a ? BentBody<D, S>::of(*a, own) : BentBody<D, S>{own}, b ? BentBody<D, S>::of(*b, other) : BentBody<D, S>{own}}, (a || point(difference.a().core())) && (b || point(difference.b().core()))};
+    }
+    return std::nullopt;
+  }
+
+ private:
+  template <class Core>
+  static const EllipsoidCore<D, S>* ellipsoid(const Core& core) { return std::get_if<EllipsoidCore<D, S>>(&core); }
+  template <class Core>
+  static bool point(const Core& core) { return std::holds_alternative<PointCore<D, S>>(core); }
+  static bool flat(const EllipsoidCore<D, S>& x) { return !(x.radii.minCoeff() * 1024 > x.radii.maxCoeff()); }
+};
+
+template <int D, class S>
+class HeightModel {
+  static constexpr int across = D - 1;  ///< axes across d
+  using V = Vector<D, S>;
+
+ public:
+  HeightModel() = default;
+  /// `w`: A - B's support along the unit direction d.
+  HeightModel(const std::array<BentBody<D, S>, 2>& bodies, const V& d, const V& w) : d_(d), height_(d.dot(w)), ball_(bodies[0].ball + bodies[1].ball) {
+    std::array<Bends, 2> bends;
+    if constexpr (D == 3) {
+      const V e = d.unitOrthogonal(), f = d.cross(e);
+      axes_ = {e, f};
+    } else {
+      axes_ = {V(-d[1], d[0])};
+    }
+    for (std::size_t k = 0; k < 2; ++k) bends[k] = of_body(bodies[k]);
+    if constexpr (D == 3) turn(bends);
+    for (int i = 0; i < across; ++i) slope_[at(i)] = axes_[at(i)].dot(w), bend_[at(i)] = -height_;
+    for (const Bends& b : bends) take(b);
+  }
+
+  const V& direction() const { return d_; }
+  S height() const { return height_; }
+  /// How far the support lies beside the direction.
+  S slope() const { return across == 2 ? std::hypot(slope_[0], slope_[across - 1]) : std::abs(slope_[0]); }
+
+  /// What no height is below along directions no farther than this chord of the unit sphere.
+  S least_within(S chord) const {
+    const S q = chord, second = q * q;
+    std::array<S, 2> slope{std::abs(slope_[0]), 0}, bend{bend_[0] - q / 3 * std::abs(cubic_[0]) - 2 * second * quartic_[0], 0};
+    S least = height_;
+    if constexpr (across == 2) {
+      slope[1] = std::abs(slope_[1]) + second / 6 * std::abs(cubic_[1]) + 2 * second * q * mixed_;
+      bend[1] = bend_[1] - q / 3 * (std::abs(cubic_[2]) + std::abs(cubic_[3])) - 2 * second * quartic_[1];
+    }
+    for (std::size_t i = 0; i < at(across); ++i) {
+      const bool within = bend[i] > 0 && slope[i] <= bend[i] * q;
+      least += within ? -slope[i] * slope[i] / (2 * bend[i]) : bend[i] * second / 2 - slope[i] * q;
+    }
+    return std::max(least, least_by_ball(q));
+  }
+
+  /// Newton's step to where the height is least, along the axes that bend towards that, and along each of them no farther than `most`.
+  V step(S most) const { return moved([&](std::size_t i) { return bend_[i] > 0 ? std::clamp(-slope_[i] / bend_[i], -most, most) : S(0); }); }
+  /// Along every axis downhill; as far as Newton's step leads, at most by 1.
+  V step_down() const { return moved([&](std::size_t i) { return slope_[i] == 0 ? S(0) : std::clamp(-slope_[i] / std::abs(bend_[i]), S(-1), S(1)); }); }
+
+ private:
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+  template <class Along>
+  V moved(const Along& along) const {
+    V there = d_;
+    for (std::size_t i = 0; i < at(across); ++i) there += along(i) * axes_[i];
+    return there.normalized();
+  }
+
+  S least_by_ball(S q) const {
+    const S rest = height_ - ball_, aside = slope(), cos = 1 - q * q / 2, sin = q * std::sqrt(std::max(S(0), 1 - q * q / 4));
+    if (rest < 0 && aside * cos < -rest * sin) return ball_ - std::hypot(rest, aside);
+    return ball_ + rest * cos - aside * sin;
+  }
+
+  /// Of a body, over the axes: T; m and X in parts of h^2.
+  struct Bends {
+    S t11 = 0, t12 = 0, t22 = 0, m1 = 0, m2 = 0, x11 = 0, x12 = 0, x22 = 0;
+    /// In the axes cos e1 + sin e2, cos e2 - sin e1.
+    void turn(S cos, S sin) {
+      const auto matrix = [&](S& a, S& b, S& c) {
+        const S first = cos * cos * a + 2 * cos * sin * b + sin * sin * c, last = sin * sin * a - 2 * cos * sin * b + cos * cos * c;
+        b = (cos * cos - sin * sin) * b + cos * sin * (c - a), a = first, c = last;
+      };
+      matrix(t11, t12, t22), matrix(x11, x12, x22);
+      const S first = cos * m1 + sin * m2;
+      m2 = cos * m2 - sin * m1, m1 = first;
+    }
+  };
+
+  Bends of_body(const BentBody<D, S>& body) const {
+    Bends b;
+    if (!(body.greatest > 0)) return b;
+    const V d = body.inverse * d_, e = body.inverse * axes_[0], md = body.squares.cwiseProduct(d), me = body.squares.cwiseProduct(e);
+    const S square = d.dot(md), scale = body.greatest / (square * std::sqrt(square));
+    b.m1 = e.dot(md) / square, b.x11 = e.dot(me) / square - 1;
+    if constexpr (D == 3) {
+      const V f = body.inverse * axes_[1], adjugate(body.squares[1] * body.squares[2], body.squares[2] * body.squares[0], body.squares[0] * body.squares[1]);
+      b.m2 = f.dot(md) / square, b.x12 = f.dot(me) / square, b.x22 = f.dot(body.squares.cwiseProduct(f)) / square - 1;
+      const V ae = adjugate.cwiseProduct(e);
+      b.t11 = f.dot(adjugate.cwiseProduct(f)) * scale, b.t12 = -f.dot(ae) * scale, b.t22 = e.dot(ae) * scale;  // d x e = f, d x f = -e
+    } else {
+      b.t11 = body.squares[0] * body.squares[1] * scale;
+    }
+    return b;
+  }
+
+  /// To the axes in which T is diagonal, the least bend first.
+  void turn(std::array<Bends, 2>& bends) {
+    const S half = (bends[0].t22 + bends[1].t22 - bends[0].t11 - bends[1].t11) / 2, mixed = -(bends[0].t12 + bends[1].t12), length = std::hypot(half, mixed);
+    if (!(length > 0)) return;
+    // The least lies at an angle a to e1 where cos(2a) = half / length, sin(2a) = mixed / length.
+    S cos = std::sqrt((1 + std::abs(half) / length) / 2), sin = mixed / (2 * length * cos);
+    if (half < 0) std::swap(cos, sin);
+    for (Bends& b : bends) b.turn(cos, sin);
+    const V e = cos * axes_[0] + sin * axes_[1];
+    axes_[across - 1] = cos * axes_[across - 1] - sin * axes_[0], axes_[0] = e;
+  }
+
+  void take(const Bends& b) {
+    bend_[0] += b.t11, cubic_[0] += 3 * b.t11 * b.m1;
+    const S most = (b.t11 + b.t22) / 2 + std::hypot((b.t11 - b.t22) / 2, b.t12);
+    quartic_[0] += most * std::max(S(0), b.x11) / 8;
+    if constexpr (across == 2) {
+      bend_[1] += b.t22;
+      cubic_[1] += 3 * (b.t11 * b.m2 + 2 * b.t12 * b.m1), cubic_[2] += 3 * (2 * b.t12 * b.m2 + b.t22 * b.m1), cubic_[3] += 3 * b.t22 * b.m2;
+      quartic_[1] += most * std::max(S(0), b.x22) / 8, mixed_ += most * std::abs(b.x12) / 8;
+    }
+  }
+
+  V d_;
+  std::array<V, across> axes_;  ///< e1, e2
+  S height_ = 0, ball_ = 0;
+  std::array<S, across> slope_{}, bend_{}, quartic_{};  ///< g, T - h, and of u_i^2 u^2
+  std::array<S, 4> cubic_{};                             ///< of u1^3, u1^2 u2, u1 u2^2, u2^3, times 6
+  S mixed_ = 0;                                          ///< of |u1 u2| u^2
+};
+
+}  // namespace gjkdbg
