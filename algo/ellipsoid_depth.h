@@ -81,6 +81,9 @@ class DirectionSquares {
   std::vector<Square> heap_;
 };
 
+/// Whether EPA, with so many steps, had a fair chance before its directions are divided: who asks for fewer wants to know how far it comes.
+inline bool fair_for_epa(int most) { return most >= 256; }
+
 /// Knows nothing of a trace, so that it is compiled once: who wants to see an axis is called.
 template <class Difference>
 class EllipsoidDepth {

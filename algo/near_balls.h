@@ -148,7 +148,7 @@ std::optional<OutlineDepth<Difference::D, typename Difference::S>> near_balls(Di
     const double radius = static_cast<double>(difference.radius());
     if constexpr (traced<Trace>) trace(SatBegan<V, Viewed>{0, 0, 0});
     OutlineDepth<D, S> found = NearBalls<Difference>(difference, *balls, tolerance, outline_look(difference, trace)).run(most);
-    if (const auto pair = BentPair<D, S>::of(difference); pair && found.sat.status == SatStatus::undecided) {
+    if (const auto pair = BentPair<D, S>::of(difference); pair && found.sat.status == SatStatus::undecided && fair_for_epa(most)) {
       EllipsoidDepth<Difference> all_round(difference, *pair, outline_look(difference, trace));
       all_round.go_on(found.sat.iterations, found.sat.normal);
       found = all_round.run(tolerance, most);

@@ -134,13 +134,15 @@ void RecordCheck::judge(const recorded::AxisTested& e) {
 void RecordCheck::judge(const recorded::SatEnded& e) {
   if (const std::string off = c_.not_unit(e.normal); !off.empty()) contradiction(off);
   if (e.status != SatStatus::separated && axes_[0] + axes_[1] > 0) contradiction(std::to_string(axes_[0] + axes_[1]) + " faces have not been looked along, and no axis separates.");
-  statuses_.emplace(word_of(e.status)), last_status_ = word_of(e.status);
+  const bool in_vain = e.status == SatStatus::undecided && last_status_ == word_of(EpaStatus::iteration_limit);  // EPA's answer stands
+  statuses_.emplace(word_of(e.status));
+  if (!in_vain) last_status_ = word_of(e.status);
   const bool known = c_.has_supports || radius_between_;
   // A yes or no ends at the first axis that says enough; of those looked along at once another may be wider.
   const bool wider = c_.recording.scene.scene.query == Query::intersect && e.status == SatStatus::separated && e.distance > plane_;
   if (known && !wider && differ(e.distance, plane_) && differ(e.distance, nearest_projected_.value_or(plane_)))
     contradiction("SAT ends with a distance of " + text_of(e.distance) + ", but the steps before give " + text_of(nearest_projected_.value_or(plane_)) + ".");
-  lower_ = upper_ = unknowable;
+  if (!in_vain) lower_ = upper_ = unknowable;
   if (e.status == SatStatus::overlapping && c_.recording.scene.scene.query > Query::distance && c_.recording.settings.penetration != Penetration::none) lower_ = e.distance, upper_ = (std::isfinite(outlined_) ? outlined_ : e.distance) + section_slack_;
   if (e.status == SatStatus::separated && nearest_projected_) lower_ = projected_bounds_.first, upper_ = projected_bounds_.second;
 }

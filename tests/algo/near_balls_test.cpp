@@ -8,7 +8,7 @@
 #include "algo/solve.h"
 #include "recordings/check.h"
 #include "recordings/recording.h"
-#include "shapes/world_support.h"
+#include "tests/support/heights.h"
 
 namespace gjkdbg {
 namespace {
@@ -41,26 +41,6 @@ Scene nearly_balls_scene(int k, int dimension, double unlike, double away) {
   scene.bodies[1].pose.position = away * any().normalized();
   return scene;
 }
-
-class Heights {
- public:
-  explicit Heights(const Scene& scene) : a_(scene.bodies[0], scene.dimension), b_(scene.bodies[1], scene.dimension) {}
-  AnyVector support(const AnyVector& n) const { return a_(n, true) - b_(-n, true); }
-  double along(const AnyVector& n) const { return n.dot(support(n)); }
-  /// Downhill from n: against the height's slope, which is what of the support is across n.
-  double below(AnyVector n) const {
-    double least = along(n), step = 1;
-    for (int i = 0; i < 30; ++i) {
-      const AnyVector w = support(n), slope = w - n * n.dot(w), next = (n - step * slope).normalized();
-      if (const double height = along(next); height < least) least = height, n = next;
-      else step /= 2;
-    }
-    return least;
-  }
-
- private:
-  WorldSupport a_, b_;
-};
 
 bool has_outline(const Recording& run) {
   return std::any_of(run.events.begin(), run.events.end(), [](const Event& e) { return std::holds_alternative<recorded::SatBegan>(e); });

@@ -228,7 +228,7 @@ TEST(CheckMotion, AnOverlapWhoseWayOutIsNotKnownIsClean) {
     for (const SceneFile* overlap : {&cylinders, &ellipsoids}) {
       expect_honest(*overlap, method, 512), expect_honest(*overlap, method, 3);
       EXPECT_EQ(cast_by(*overlap, method, 512).result.status, "initially_overlapping");
-      EXPECT_EQ(cast_by(*overlap, method, 512).result.normal.has_value(), overlap == &cylinders);
+      EXPECT_TRUE(cast_by(*overlap, method, 512).result.normal);
     }
     for (int limit = 1; limit <= 12; ++limit) expect_honest(ellipses, method, limit);
     EXPECT_FALSE(cast_by(ellipses, method, 4).result.normal) << word_of(method);
