@@ -1,4 +1,4 @@
-// How deep an ellipsoid is in another body, most often an ellipsoid or a ball, by branch and bound over the directions; in the plane an ellipse.
+// How deep ellipsoids are in each other, or in a ball, by branch and bound over the directions; in the plane ellipses.
 //
 // Where many ways out of A - B are nearly as short (from the middle of what is nearly a ball all of them, of what is nearly a spheroid a circle of them), EPA would have to put faces everywhere:
 // of width s, each leaves s^2 / 8 of the radius open. But about every direction that was looked along the bends of both bodies say what no height is below, and that is off by far less
@@ -50,12 +50,6 @@ class DirectionSquares {
       d[axis] = side < D ? S(1) : S(-1);
       for (int i = 0; i + 1 < D; ++i) d[(axis + 1 + i) % D] = at[static_cast<std::size_t>(i)];
       return d.normalized();
-    }
-    /// The longest chord from a direction to one of its own: none is farther than a corner.
-    S reach(const Vector<D, S>& from) const {
-      S most = 0;
-      for (const Vector<D, S>& end : ends) most = std::max(most, (end - from).squaredNorm());
-      return std::sqrt(most);
     }
   };
 
@@ -115,8 +109,7 @@ class EllipsoidDepth {
     }
     for (update(squares); !squares.empty() && !near_enough(squares.least()) && !squares.full() && looked_ < most; update(squares)) {
       Square first = squares.take_least(), second;
-      const auto widest = std::max_element(first.half.begin(), first.half.end()) - first.half.begin();
-      const auto i = static_cast<std::size_t>(widest);
+      const auto i = static_cast<std::size_t>(std::max_element(first.half.begin(), first.half.end()) - first.half.begin());
       const S quarter = first.half[i] / 2;
       first.half[i] = quarter, first.divided = true, second = first, first.middle[i] -= quarter, second.middle[i] += quarter;
       examine(first, squares), examine(second, squares);
@@ -148,7 +141,7 @@ class EllipsoidDepth {
     if (any()) bound_by(best_.model, square);
     if (square.divided) bound(square);
     for (int k = 0; k < steps && !near_enough(square.least); ++k) {
-      const S reach = k > 0 ? square.reach(square.model.direction()) : S(0);
+      const S reach = k > 0 ? square.model.reach(square.ends).chord : S(0);
       const V n = k > 0 ? square.model.step(reach) : square.direction(square.middle);
       if (k > 0 && (n - square.model.direction()).norm() <= reach / 1024) break;  // it is there
       square.model = look_along(n).model;
@@ -157,7 +150,7 @@ class EllipsoidDepth {
     if (near_enough(square.least)) settled_ = std::min(settled_, square.least);
     else squares.push(square);
   }
-  static void bound_by(const HeightModel<D, S>& model, Square& square) { square.least = std::max(square.least, model.least_within(square.reach(model.direction()))); }
+  static void bound_by(const HeightModel<D, S>& model, Square& square) { square.least = std::max(square.least, model.least_within(model.reach(square.ends))); }
   static void bound(Square& square) { bound_by(square.model, square); }
 
   void update(const Squares& squares) { least_ = squares.empty() ? settled_ : std::min(settled_, squares.least()); }

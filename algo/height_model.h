@@ -1,4 +1,4 @@
-// What the height of A - B is like about a direction, where one body or both are ellipsoids: what it is no less than, and where it may be least.
+// What the height of A - B is like about a direction, where both bodies are ellipsoids, or one a point: what it is no less than, and where it may be least.
 //
 // Along a great circle from the unit direction d the directions are cos(s) d + sin(s) t, t across d. With M the matrix of an ellipsoid whose squared radii are its eigenvalues, its height there is
 // f(s) = sqrt(z), the height of a plane ellipse, which bends with the radius f'' + f:
@@ -11,11 +11,11 @@
 //   f(s) = f(0) cos(s) + f'(0) sin(s) + int_0^s sin(s - r) (f'' + f)(r) dr
 //
 // and for 1, sin(2r), sin(r)^2 the integral is q^2 / 2, q^3 cos(s / 2) / 3, q^4 / 12, with the chord q = 2 sin(s / 2). A - B's height is the sum of the bodies', but for the part c . n of their
-// middles, which bends nowhere. A body that is no ellipsoid reaches as far as the point w that was its support, at least, and w . n bends nowhere either. With u = q t, h the height, g the slope (what of the support lies across d) of all,
+// middles, which bends nowhere. With u = q t, h the height, g the slope (what of the support lies across d) of all,
 //
 //   h(n) >= h + cos(s / 2) (g.u - sum T(u) m.u / (2 h_k^2)) + u.(T - h) u / 2 - sum T(u) u.X u / (8 h_k^2)
 //
-// T - h is diagonal in axes e1, e2 across d; u.T u's other terms are shared out between u1^2 and u2^2, with |u1|, |u2| <= q. Where the first is next to nothing, all that is left along e1 is
+// T - h is diagonal in axes e1, e2 across d; u.T u's other terms are shared out between u1^2 and u2^2, with what |u1|, |u2| are at most. Where the first is next to nothing, all that is left along e1 is
 // u1^3 m1: that vanishes with the slope, so along a valley of directions that are nearly as near, the bound falls off by less than the valley's own heights differ. (A polytope's faces, EPA's,
 // know of no bends: their bound falls off by h u^2 / 2.)
 #pragma once
@@ -32,7 +32,7 @@
 
 namespace gjkdbg {
 
-/// How a body bends: an ellipsoid, by its squared radii in parts of the greatest, so that no power of a small one vanishes. Of all others it is only known that they bend nowhere inwards: zeros.
+/// How a body bends: an ellipsoid, by its squared radii in parts of the greatest, so that no power of a small one vanishes. A point bends nowhere: zeros.
 template <int D, class S>
 struct BentBody {
   Matrix<D, S> inverse;  ///< takes directions to its axes
@@ -47,30 +47,29 @@ struct BentBody {
   }
 };
 
-/// Two bodies of which one, at least, is an ellipsoid.
+/// Of two bodies, in body 0's frame.
 template <int D, class S>
 struct BentPair {
   std::array<BentBody<D, S>, 2> bodies;
-  bool smooth;  ///< the other is one as well, or a point
 
-  /// Unset where there is none, or one is too flat for its bends to be told.
+  /// Unset where a body is neither an ellipsoid nor a point (a ball's core), neither is an ellipsoid, or one is too flat for its bends to be told.
   template <class Difference>
   static std::optional<BentPair> of(const Difference& difference) {
     if constexpr (D > 1 && requires { difference.a().core(), difference.b().core(); }) {
-      const auto *a = ellipsoid(difference.a().core()), *b = ellipsoid(difference.b().core());
-      if ((!a && !b) || (a && flat(*a)) || (b && flat(*b))) return std::nullopt;
-      const Matrix<D, S> own = Matrix<D, S>::Identity(), other = difference.rotation();
-      return BentPair{{a ? BentBody<D, S>::of(*a, own) : BentBody<D, S>{own}, b ? BentBody<D, S>::of(*b, other) : BentBody<D, S>{own}}, (a || point(difference.a().core())) && (b || point(difference.b().core()))};
+      const auto a = bent(difference.a().core(), Matrix<D, S>::Identity()), b = bent(difference.b().core(), difference.rotation());
+      if (a && b && (a->greatest > 0 || b->greatest > 0)) return BentPair{{*a, *b}};
     }
     return std::nullopt;
   }
 
  private:
   template <class Core>
-  static const EllipsoidCore<D, S>* ellipsoid(const Core& core) { return std::get_if<EllipsoidCore<D, S>>(&core); }
-  template <class Core>
-  static bool point(const Core& core) { return std::holds_alternative<PointCore<D, S>>(core); }
-  static bool flat(const EllipsoidCore<D, S>& x) { return !(x.radii.minCoeff() * 1024 > x.radii.maxCoeff()); }
+  static std::optional<BentBody<D, S>> bent(const Core& core, const Matrix<D, S>& axes) {
+    if (std::holds_alternative<PointCore<D, S>>(core)) return BentBody<D, S>{axes};
+    const auto* ellipsoid = std::get_if<EllipsoidCore<D, S>>(&core);
+    if (!ellipsoid || !(ellipsoid->radii.minCoeff() * 1024 > ellipsoid->radii.maxCoeff())) return std::nullopt;
+    return BentBody<D, S>::of(*ellipsoid, axes);
+  }
 };
 
 template <int D, class S>
@@ -100,18 +99,47 @@ class HeightModel {
   /// How far the support lies beside the direction.
   S slope() const { return across == 2 ? std::hypot(slope_[0], slope_[across - 1]) : std::abs(slope_[0]); }
 
-  /// What no height is below along directions no farther than this chord of the unit sphere.
-  S least_within(S chord) const {
-    const S q = chord, second = q * q;
-    std::array<S, 2> slope{std::abs(slope_[0]), 0}, bend{bend_[0] - q / 3 * std::abs(cubic_[0]) - 2 * second * quartic_[0], 0};
+  /// How far directions are from this one: of u, its length and its parts along e1, e2, at most.
+  struct Reach {
+    S chord;
+    std::array<S, across> along;
+  };
+  Reach reach(S chord) const {
+    Reach reach{chord, {}};
+    reach.along.fill(chord);
+    return reach;
+  }
+  /// Of the spherical polygon with these corners, less than half the sphere. A direction n in it is w / |w| with a mean w of the corners, where e.w is no more than a corner's and |w| >= d.w no less than
+  /// one's; and u = q t is the part of n across d, sin(s) t, over cos(s / 2).
+  template <std::size_t corners>
+  Reach reach(const std::array<V, corners>& ends) const {
+    S square = 0, ahead = 1;
+    std::array<S, across> aside{};
+    for (const V& end : ends) {
+      square = std::max(square, (end - d_).squaredNorm()), ahead = std::min(ahead, d_.dot(end));
+      for (std::size_t i = 0; i < at(across); ++i) aside[i] = std::max(aside[i], std::abs(axes_[i].dot(end)));
+    }
+    if (!(ahead > 0)) return reach(S(2));  // the farthest direction need not be a corner
+    Reach reach = this->reach(std::sqrt(square));
+    if (!(ahead > S(0.25))) return reach;
+    const S widened = 1 / (ahead * std::sqrt((1 + ahead) / 2));
+    for (std::size_t i = 0; i < at(across); ++i) reach.along[i] = std::min(reach.chord, aside[i] * widened);
+    return reach;
+  }
+
+  /// What no height is below along directions no farther than this.
+  S least_within(const Reach& reach) const {
+    const S q = reach.chord, q1 = reach.along[0], q2 = reach.along[across - 1], second = q * q;
+    std::array<S, 2> slope{std::abs(slope_[0]), 0}, bend{bend_[0] - q1 / 3 * std::abs(cubic_[0]) - 2 * second * quartic_[0], 0};
     S least = height_;
     if constexpr (across == 2) {
-      slope[1] = std::abs(slope_[1]) + second / 6 * std::abs(cubic_[1]) + 2 * second * q * mixed_;
-      bend[1] = bend_[1] - q / 3 * (std::abs(cubic_[2]) + std::abs(cubic_[3])) - 2 * second * quartic_[1];
+      slope[1] = std::abs(slope_[1]) + q1 * q1 / 6 * std::abs(cubic_[1]) + 2 * second * q1 * mixed_;
+      bend[1] = bend_[1] - (q1 * std::abs(cubic_[2]) + q2 * std::abs(cubic_[3])) / 3 - 2 * second * quartic_[1];
     }
     for (std::size_t i = 0; i < at(across); ++i) {
-      const bool within = bend[i] > 0 && slope[i] <= bend[i] * q;
-      least += within ? -slope[i] * slope[i] / (2 * bend[i]) : bend[i] * second / 2 - slope[i] * q;
+      const S most = reach.along[i];
+      const bool within = bend[i] > 0 && slope[i] <= bend[i] * most;
+      least += within ? -slope[i] * slope[i] / (2 * bend[i]) : bend[i] * most * most / 2 - slope[i] * most;
     }
     return std::max(least, least_by_ball(q));
   }
@@ -133,7 +161,7 @@ class HeightModel {
 
   S least_by_ball(S q) const {
     const S rest = height_ - ball_, aside = slope(), cos = 1 - q * q / 2, sin = q * std::sqrt(std::max(S(0), 1 - q * q / 4));
-    if (rest < 0 && aside * cos < -rest * sin) return ball_ - std::hypot(rest, aside);
+    if (aside * cos < -rest * sin) return ball_ - std::hypot(rest, aside);
     return ball_ + rest * cos - aside * sin;
   }
 

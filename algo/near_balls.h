@@ -149,9 +149,9 @@ std::optional<OutlineDepth<Difference::D, typename Difference::S>> near_balls(Di
     if constexpr (traced<Trace>) trace(SatBegan<V, Viewed>{0, 0, 0});
     OutlineDepth<D, S> found = NearBalls<Difference>(difference, *balls, tolerance, outline_look(difference, trace)).run(most);
     if (const auto pair = BentPair<D, S>::of(difference); pair && found.sat.status == SatStatus::undecided && fair_for_epa(most)) {
-      EllipsoidDepth<Difference> all_round(difference, *pair, outline_look(difference, trace));
-      all_round.go_on(found.sat.iterations, found.sat.normal);
-      found = all_round.run(tolerance, most);
+      EllipsoidDepth<Difference> by_bends(difference, *pair, outline_look(difference, trace));
+      by_bends.go_on(found.sat.iterations, found.sat.normal);
+      found = by_bends.run(tolerance, most);
     }
     if constexpr (traced<Trace>) trace(SatEnded<V, Viewed>{found.sat.iterations, found.sat.status, found.sat.normal, -static_cast<double>(found.sat.depth) - radius});
     return found;

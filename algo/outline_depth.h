@@ -20,7 +20,7 @@ std::optional<OutlineDepth<Difference::D, typename Difference::S>> outline_depth
   return near_balls(difference, tolerance, most, trace);
 }
 
-/// For where EPA came to its limit. Unset where that was too low to tell, or no body is an ellipsoid.
+/// For where EPA came to its limit. Unset where that was too low to tell, or the bodies are no ellipsoids.
 template <class Difference, class Trace>
 std::optional<OutlineDepth<Difference::D, typename Difference::S>> depth_by_bends(Difference& difference, typename Difference::S tolerance, int most, Trace& trace) {
   if (!fair_for_epa(most)) return std::nullopt;

@@ -13,7 +13,7 @@ template <class Difference>
 std::optional<BentPair<3, typename Difference::S>> tilted_spheroids(const Difference& difference) {
   using S = typename Difference::S;
   const auto pair = BentPair<3, S>::of(difference);
-  return pair && pair->smooth && RevolvedPair<S>::of_tilted(difference) ? pair : std::nullopt;
+  return pair && RevolvedPair<S>::of_tilted(difference) ? pair : std::nullopt;
 }
 
 }  // namespace gjkdbg

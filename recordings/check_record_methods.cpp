@@ -112,7 +112,7 @@ void RecordCheck::count_axes(const recorded::SatBegan& e) {
 void RecordCheck::count_section_axes(const recorded::SatBegan& e) {
   if (!may_have_outline(c_.recording)) return;
   const std::optional<DepthOutline> right = outline_of(c_.recording);
-  if (!right) return contradiction("SAT begins, but the bodies are neither bodies of revolution about parallel axes, or nearly one line, nor nearly balls, and none is an ellipsoid.");
+  if (!right) return contradiction("SAT begins, but the bodies are neither bodies of revolution about parallel axes, or nearly one line, nor ellipsoids.");
   section_slack_ = right->slack, curved_section_ = right->curved, meeting_unseen_ = right->kind != OutlineKind::parallel_axes;
   if (e.faces_a != right->edges_of_a || e.faces_b != right->edges_of_b || e.edge_pairs != 0)
     contradiction("SAT is said to have " + std::to_string(e.faces_a) + " and " + std::to_string(e.faces_b) + " faces and " + std::to_string(e.edge_pairs) + " pairs of edges to look along; the outline of these bodies has " +

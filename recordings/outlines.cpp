@@ -37,21 +37,28 @@ struct Placed {
       : scale(working_scale<S>(of_a, of_b)), a(of_a.shape, scale), b(of_b.shape, scale), difference(a, b, of_a.pose, of_b.pose, scale) {}
 };
 
-template <int D>
-bool balls_roll_in(const Body& a, const Body& b, bool single) {
-  return single ? RollingBalls<float>::of(Placed<D, float>(a, b).difference).has_value() : RollingBalls<double>::of(Placed<D, double>(a, b).difference).has_value();
+template <int D, class Kind>
+bool is_pair(const Body& a, const Body& b, bool single, const Kind& kind) {
+  return single ? kind(Placed<D, float>(a, b).difference) : kind(Placed<D, double>(a, b).difference);
 }
 
-/// Wherever they are, and however they are turned.
-bool nearly_balls(const Recording& recording) {
+/// Whether two of the bodies are of a kind, wherever they are and however they are turned.
+template <class Kind>
+bool any_pair(const Recording& recording, const Kind& kind) {
   const auto& bodies = recording.scene.scene.bodies;
   const int dimension = recording.scene.scene.dimension;
   const bool single = recording.settings.scalar == Scalar::float_precision;
   if (dimension == 1) return false;
   for (std::size_t i = 0; i < bodies.size(); ++i)
     for (std::size_t j = i + 1; j < bodies.size(); ++j)
-      if (convex(bodies[i]) && convex(bodies[j]) && (dimension == 2 ? balls_roll_in<2>(bodies[i], bodies[j], single) : balls_roll_in<3>(bodies[i], bodies[j], single))) return true;
+      if (convex(bodies[i]) && convex(bodies[j]) && (dimension == 2 ? is_pair<2>(bodies[i], bodies[j], single, kind) : is_pair<3>(bodies[i], bodies[j], single, kind))) return true;
   return false;
+}
+bool nearly_balls(const Recording& recording) {
+  return any_pair(recording, []<class Difference>(const Difference& difference) { return RollingBalls<typename Difference::S>::of(difference).has_value(); });
+}
+bool ellipsoids(const Recording& recording) {
+  return any_pair(recording, []<class Difference>(const Difference& difference) { return BentPair<Difference::D, typename Difference::S>::of(difference).has_value(); });
 }
 
 template <class S>
@@ -70,14 +77,10 @@ std::optional<DepthOutline> about_nearly_one_line(const Recording& recording) {
   return RevolvedPair<S>::of_tilted(placed.difference) ? std::optional(DepthOutline{OutlineKind::tilted_axes}) : std::nullopt;
 }
 
-bool has_ellipsoid(const Scene& scene) {
-  return scene.dimension > 1 && std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) { return std::holds_alternative<Ellipsoid>(body.shape.geometry); });
-}
-
 }  // namespace
 
 bool may_have_outline(const Recording& recording) {
-  return asks_for_depth(recording) && (count_of_bodies(recording.scene.scene, [](const auto&) { return true; }) >= 2 || has_ellipsoid(recording.scene.scene));
+  return asks_for_depth(recording) && (count_of_bodies(recording.scene.scene, [](const auto&) { return true; }) >= 2 || ellipsoids(recording));
 }
 
 std::optional<DepthOutline> outline_of(const Recording& recording) {
@@ -87,7 +90,7 @@ std::optional<DepthOutline> outline_of(const Recording& recording) {
   if (space) found = single ? of_revolution<float>(recording) : of_revolution<double>(recording);
   if (!found && space) found = single ? about_nearly_one_line<float>(recording) : about_nearly_one_line<double>(recording);
   if (!found && nearly_balls(recording)) found = DepthOutline{OutlineKind::near_balls};
-  if (!found && has_ellipsoid(recording.scene.scene)) found = DepthOutline{OutlineKind::bends};
+  if (!found && ellipsoids(recording)) found = DepthOutline{OutlineKind::bends};
   return found;
 }
 

@@ -106,6 +106,26 @@ TEST_F(Newcomer, IsToldWhatIsNearlyABall) {
   EXPECT_GE(axes, 20);
 }
 
+TEST_F(Newcomer, IsToldOfBends) {
+  app.open_gallery("tilted-spheroids");
+  int axes = 0;
+  for (std::size_t step = 0; step < session.count(); step += 3) {
+    session.go_to(step);
+    if (!kind_at<recorded::AxisTested>(session, step)) continue;
+    const PseudoCode code = pseudo_code(session.recording(), step);
+    EXPECT_EQ(code.title, "Depth by the bends of ellipsoids");
+    EXPECT_EQ(code.lines[static_cast<std::size_t>(code.current)], "    depth = min(depth, n.w)");
+    ++axes;
+  }
+  EXPECT_GE(axes, 20);
+  session.go_to(session.count() - 1);
+  EXPECT_NE(explain(session.recording(), session.frame()).text.find("the bends leave nothing less"), std::string::npos);
+  for (std::size_t step = 0; step < session.count(); ++step)
+    if (kind_at<recorded::SatBegan>(session, step)) session.go_to(step);
+  const Explanation told = explain(session.recording(), session.frame());
+  EXPECT_NE((told.title + told.text).find("instead of EPA"), std::string::npos) << told.title;
+}
+
 TEST_F(Newcomer, IsToldWhatIsAboutNearlyOneLine) {
   app.open_gallery("nearly-one-line");
   int axes = 0;
