@@ -89,12 +89,17 @@ void overlaps(std::vector<AtlasFamily>& out, bool quick) {
   beside.insert(beside.begin(), 0);
   for (const double d : beside)  // across the cone's side, along (2, 1) / sqrt 5, the cone reaches 1 / sqrt 5, and the cylinder the other way 2 / sqrt 5
     ring.cases.push_back({d, pair({"", {Cone{1, 1, 2}, 0}, identity_pose(3)}, {"", {Cylinder{0.5, 1, 2}, 0}, identity_pose(3)}), (2 * d - 3) / std::sqrt(5.0)}), ring.cases.back().scene.bodies[1].pose.position = vec(d, 0, 0);
+  AtlasFamily tilted{"C7", "spheroids about one middle, one tilted: a whole circle of directions is nearly as near, but not quite", {}};
+  for (const double tilt : powers(1e-12, 1, quick)) {  // about x, across which both are thinnest
+    tilted.cases.push_back({tilt, pair(ellipsoid(vec(0.75, 0.75, 1.5), vec(0, 0, 0)), ellipsoid(vec(0.5, 0.5, 1), vec(0, 0, 0))), -1.25});
+    tilted.cases.back().scene.bodies[1].pose.matrix = Eigen::AngleAxisd(tilt, vec(1, 0, 0)).toRotationMatrix();
+  }
   AtlasFamily shallow{"E1", "stacked boxes, a little deep: the origin lies on a face of the first tetrahedron and the contact is dropped", {}};
   for (const double d : powers(1e-14, 1e-1, quick)) {
     const double z = 0.4 - d;
     shallow.cases.push_back({d, pair(cube(vec(0, 0, 0), 0.2), cube(vec(0, 0, z), 0.2)), z - 0.4});
   }
-  out.push_back(stacked), out.push_back(same), out.push_back(spheres), out.push_back(deep), out.push_back(ring), out.push_back(shallow);
+  out.push_back(stacked), out.push_back(same), out.push_back(spheres), out.push_back(deep), out.push_back(ring), out.push_back(tilted), out.push_back(shallow);
 }
 
 /// Triangles tip to tip in the plane, wedges edge to edge in space.

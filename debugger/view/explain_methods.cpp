@@ -54,7 +54,7 @@ Explanation ExplainMethods::operator()(const recorded::SatBegan& e) const {
   if (of_bends(recording)) {
     const bool after_epa = frame.step > 0 && std::holds_alternative<recorded::EpaEnded>(recording.events[frame.step - 1]);
     return {after_epa ? "By the bends, after EPA" : "By the bends, instead of EPA",
-            std::string("Many ways out are nearly as short, and EPA ") + (after_epa ? "ran out of steps" : "would run out of steps") + ": between its corners a flat face is all it knows of a round boundary. But how an ellipsoid bends is known, and so about every direction that is looked along, " +
+            std::string("Many ways out are nearly as short, and EPA ") + (after_epa ? "ran out of steps" : "may run out of steps") + ": between its corners a flat face is all it knows of a round boundary. But how an ellipsoid bends is known, and so about every direction that is looked along, " +
                 "what no direction near it comes below. The sides of a cube are squares of directions: those where a shorter way out may be are divided until there are none."};
   }
   if (of_an_outline(recording)) {
