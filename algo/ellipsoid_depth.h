@@ -78,7 +78,7 @@ class DirectionSquares {
 /// Whether EPA, with so many steps, had a fair chance before its directions are divided: who asks for fewer wants to know how far it comes.
 inline bool fair_for_epa(int most) { return most >= 256; }
 
-/// Knows nothing of a trace, so that it is compiled once: who wants to see an axis is called.
+/// Of directions in body 0's frame. Knows nothing of a trace, so that it is compiled once: who wants to see an axis is called.
 template <class Difference>
 class EllipsoidDepth {
   static constexpr int D = Difference::D;
@@ -179,7 +179,7 @@ class EllipsoidDepth {
   const AxisLook<D, S> look_;
   S tolerance_ = 0;
   int looked_ = 0;
-  S lowest_ = std::numeric_limits<S>::max();                                                            ///< of the heights
+  S lowest_ = std::numeric_limits<S>::max();  ///< of the heights
   S settled_ = std::numeric_limits<S>::infinity(), least_ = std::numeric_limits<S>::quiet_NaN();  ///< that a height is, where that is near enough, and everywhere
   Touch best_;  ///< of the least height
 };

@@ -72,6 +72,7 @@ struct BentPair {
   }
 };
 
+/// About one direction, in body 0's frame and the unit of the bodies' radii.
 template <int D, class S>
 class HeightModel {
   static constexpr int across = D - 1;  ///< axes across d
