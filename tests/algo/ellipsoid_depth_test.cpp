@@ -11,6 +11,7 @@
 #include "recordings/check.h"
 #include "recordings/recording.h"
 #include "tests/support/heights.h"
+#include "tests/support/random_scenes.h"
 
 namespace gjkdbg {
 namespace {
@@ -79,14 +80,15 @@ TEST(HeightModel, NoHeightIsBelowIt) {
   BentScenes random(1);
   const auto radii = [&](int dimension) {
     AnyVector r(dimension);
-    for (double& x : r) x = random.uniform(0.05, 1);
+    for (double& x : r) x = std::pow(10, random.uniform(-1.5, 0));
+    if (dimension == 3 && random.uniform(0, 1) < 0.5) r[1] = r[0];
     return Ellipsoid{r};
   };
-  for (int k = 0; k < 60; ++k) {
+  for (int k = 0; k < pairs_asked(1500); ++k) {
     const int dimension = k % 3 == 0 ? 2 : 3;
     const Geometry ball = Sphere{0.3}, a = radii(dimension), other = k % 5 == 1 ? ball : radii(dimension);
     const bool first = k % 2 == 0;
-    const Scene scene = random.pair(dimension, first ? a : other, first ? other : a, random.uniform(0, 1), random.uniform(0, 6));
+    const Scene scene = random.pair(dimension, first ? a : other, first ? other : a, k % 4 == 0 ? 0 : random.uniform(0, 1), random.uniform(0, 6));
     if (dimension == 2) expect_no_height_below<2>(random, scene);
     else expect_no_height_below<3>(random, scene);
   }
