@@ -126,6 +126,29 @@ TEST_F(Newcomer, IsToldOfBends) {
   EXPECT_NE((told.title + told.text).find("instead of EPA"), std::string::npos) << told.title;
 }
 
+/// Of what kind the bodies are where they meet is not known before: what is said holds of every kind.
+TEST_F(Newcomer, IsToldNothingWrongOfAnOutlineInACast) {
+  SceneFile file = session.scene();
+  file.scene = {}, file.scene.dimension = 3, file.scene.query = Query::cast, file.scene.motion = SceneMotion{}, file.scene.motion->gravity = Eigen::Vector3d::Zero();
+  for (const double size : {1.0, 0.5}) {
+    Body body{size == 1 ? "A" : "B", {}, identity_pose(3)};
+    body.shape.geometry = Ellipsoid{AnyVector(Eigen::Vector3d(size, 0.9 * size, 1.1 * size))};
+    body.motion = Motion{Eigen::Vector3d(size, 0, 0), Eigen::Vector3d::Zero()};
+    file.scene.bodies.push_back(body);
+  }
+  file.method = {};
+  app.edit(file);
+  int told = 0;
+  for (std::size_t step = 0; step < session.count(); ++step) {
+    session.go_to(step);
+    if (!kind_at<recorded::SatBegan>(session, step) && !kind_at<recorded::SatEnded>(session, step) && !kind_at<recorded::AxisTested>(session, step)) continue;
+    const Explanation e = explain(session.recording(), session.frame());
+    for (const char* wrong : {"parallel", "plane", "across the outline"}) EXPECT_EQ(e.text.find(wrong), std::string::npos) << e.text;
+    ++told;
+  }
+  EXPECT_GT(told, 5);
+}
+
 TEST_F(Newcomer, IsToldWhatIsAboutNearlyOneLine) {
   app.open_gallery("nearly-one-line");
   int axes = 0;

@@ -34,6 +34,8 @@ bool meets_at(const Recording& recording, std::size_t step);
 bool of_two_boxes(const Recording& recording, std::size_t step);
 /// Whether SAT looks along an outline, for how deep bodies of revolution are, what is nearly balls, or ellipsoids by their bends, after GJK or EPA.
 bool of_an_outline(const Recording& recording);
+/// Whether it is known of which kind: of two bodies that do not move, for which that is known before.
+bool outline_told(const Recording& recording);
 bool of_near_balls(const Recording& recording);
 bool of_tilted_axes(const Recording& recording);
 bool of_bends(const Recording& recording);

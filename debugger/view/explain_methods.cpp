@@ -57,6 +57,9 @@ Explanation ExplainMethods::operator()(const recorded::SatBegan& e) const {
             std::string("Many ways out are nearly as short, and EPA ") + (after_epa ? "ran out of steps" : "may run out of steps") + ": between its corners a flat face is all it knows of a round boundary. But how an ellipsoid bends is known, and so about every direction that is looked along, " +
                 "what no direction near it comes below. The sides of a cube are squares of directions: those where a shorter way out may be are divided until there are none."};
   }
+  if (of_an_outline(recording) && !outline_told(recording) && e.faces_a + e.faces_b == 0)
+    return {"Ways out, instead of EPA", "Many ways out of " + difference() + " are as short as one another, or nearly, and EPA would put face after face there. But how these bodies are round is known: " + difference() +
+                                            " is looked along until no direction can lead out sooner."};
   if (of_an_outline(recording)) {
     const auto any = [&](auto&& kind) { return std::any_of(recording.scene.scene.bodies.begin(), recording.scene.scene.bodies.end(), [&](const Body& body) { return kind(body.shape.geometry); }); };
     const bool ball = any([](const auto& g) { return std::holds_alternative<Sphere>(g); }), curve = any([](const auto& g) { return std::holds_alternative<Ellipsoid>(g); });
@@ -74,7 +77,7 @@ Explanation ExplainMethods::operator()(const recorded::SatBegan& e) const {
 Explanation ExplainMethods::operator()(const recorded::AxisTested& e) const {
   const std::string normal = (facet() == "edge" ? "the normal of an " : "the normal of a ") + facet() + " of ", from[] = {normal + a(), normal + b(), "across an edge of each"};
   if (of_an_outline(recording)) {
-    const bool no_plane = of_near_balls(recording) || of_tilted_axes(recording) || of_bends(recording);
+    const bool no_plane = !outline_told(recording) || of_near_balls(recording) || of_tilted_axes(recording) || of_bends(recording);
     const std::string of = e.source == AxisSource::outline ? (no_plane ? "" : ", across the outline") : ", the normal of an edge of the outline that is " + (e.source == AxisSource::face_a ? a() : b()) + "'s";
     const std::string room = e.upper_bound < 0 && e.upper_bound > e.lower_bound ? (no_plane ? " Nowhere is it less than " : " Nowhere on the outline is it less than ") + short_number(-e.upper_bound) + "." : "";
     return {"A way out", "Along " + short_vector(e.direction) + of + ", the bodies overlap by " + short_number(-e.distance) +
@@ -119,6 +122,9 @@ Explanation ExplainMethods::operator()(const recorded::SatEnded& e) const {
     return {title, "The bodies overlap by " + short_number(-e.distance) + " along " + short_vector(e.normal) + ", and no direction leads out sooner: in every square of directions the bends leave nothing less. That is the depth."};
   if (of_bends(recording) && frame.step + 1 == recording.events.size()) return {title, "What is left is within rounding, or a limit was reached before the bounds met. EPA's answer stands."};
   if (of_near_balls(recording) || of_tilted_axes(recording) || of_bends(recording)) return {title, "What is left is within rounding, or a limit was reached before the bounds met. EPA goes on."};
+  if (of_an_outline(recording) && !outline_told(recording))
+    return {title, e.status == SatStatus::overlapping ? "The bodies overlap by " + short_number(-e.distance) + " along " + short_vector(e.normal) + ", and no direction leads out sooner. That is the depth."
+                                                      : "What is left is within rounding, or a limit was reached before the bounds met."};
   if (of_an_outline(recording) && e.status == SatStatus::overlapping)
     return {title, "The outline is " + short_number(-e.distance) + " away, along " + short_vector(e.normal) + ". No direction leads out sooner, within the plane or beside it: that is the depth."};
   if (of_an_outline(recording)) return {title, "What is left is within rounding, or the axes are not parallel enough for the tolerance. EPA goes on."};

@@ -75,12 +75,15 @@ bool of_two_boxes(const Recording& recording, std::size_t step) {
 }
 
 bool of_an_outline(const Recording& recording) { return recording.settings.name != MethodName::sat; }
+bool outline_told(const Recording& recording) {
+  const Scene& scene = recording.scene.scene;
+  const auto mesh = [](const Body& body) { return std::holds_alternative<Mesh>(body.shape.geometry); };
+  return of_an_outline(recording) && !scene.motion && std::none_of(scene.bodies.begin(), scene.bodies.end(), mesh);
+}
 namespace {
 
 bool has_outline(const Recording& recording, OutlineKind kind) {
-  const Scene& scene = recording.scene.scene;
-  const auto mesh = [](const Body& body) { return std::holds_alternative<Mesh>(body.shape.geometry); };
-  if (!of_an_outline(recording) || scene.motion || std::any_of(scene.bodies.begin(), scene.bodies.end(), mesh)) return false;
+  if (!outline_told(recording)) return false;
   const std::optional<DepthOutline> outline = outline_of(recording);
   return outline && outline->kind == kind;
 }
