@@ -133,7 +133,8 @@ class NearBalls {
   int looked_ = 0;
   S lowest_ = std::numeric_limits<S>::infinity();  ///< of the heights
   S least_ = unknown;                              ///< that a height is, as far as is known
-  V lowest_along_ = V::Zero(), normal_ = V::Zero(), point_a_ = V::Zero(), point_b_ = V::Zero();  ///< points of the rests
+  V lowest_along_ = V::Zero(), normal_ = V::Zero();
+  V point_a_ = V::Zero(), point_b_ = V::Zero();  ///< of the rests
 };
 
 /// Unset where the bodies are nothing like balls: see RollingBalls. `most`: iterations of GJK, and of EPA.
