@@ -22,7 +22,7 @@
 namespace gjkdbg {
 
 /// The directions of A - B's heights that are left.
-template <int D, class S>
+template <int D, class S, class Model>
 class DirectionSquares {
   static constexpr std::size_t corners = std::size_t{1} << (D - 1);
 
@@ -33,7 +33,7 @@ class DirectionSquares {
     bool divided = false;
     std::array<S, D - 1> middle, half;
     S least = -std::numeric_limits<S>::infinity();  ///< no height is below
-    HeightModel<D, S> model;                        ///< from within it, or near it
+    Model model;                                    ///< from within it, or near it
     std::array<Vector<D, S>, corners> ends;         ///< directions of its corners
 
     void place() {
@@ -79,18 +79,19 @@ class DirectionSquares {
 inline bool fair_for_epa(int most) { return most >= 256; }
 
 /// Of directions in body 0's frame. Knows nothing of a trace, so that it is compiled once: who wants to see an axis is called.
-template <class Difference>
+template <class Difference, class Pair>
 class EllipsoidDepth {
   static constexpr int D = Difference::D;
   using S = typename Difference::S;
   using V = Vector<D, S>;
   using Point = SupportPoint<D, S>;
-  using Squares = DirectionSquares<D, S>;
+  using Model = typename Pair::Model;
+  using Squares = DirectionSquares<D, S, Model>;
   using Square = typename Squares::Square;
 
  public:
-  /// Keeps the reference.
-  EllipsoidDepth(Difference& difference, const BentPair<D, S>& pair, AxisLook<D, S> look) : difference_(difference), bodies_(pair.bodies), floor_(difference.rounding_floor()), look_(std::move(look)) {}
+  /// Keeps the references.
+  EllipsoidDepth(Difference& difference, const Pair& pair, AxisLook<D, S> look) : difference_(difference), pair_(pair), floor_(difference.rounding_floor()), look_(std::move(look)) {}
 
   /// Goes on from what others found: the axes that were looked along, of which this was the best.
   void go_on(int looked, const V& best) { looked_ = looked, look_along(best); }
@@ -122,13 +123,13 @@ class EllipsoidDepth {
   bool near_enough(S least) const { return lowest_ - least <= std::max(floor_, tolerance_ * lowest_); }
 
   struct Touch {
-    HeightModel<D, S> model;
+    Model model;
     Point point;
   };
   Touch look_along(const V& n) {
     const Point point = difference_.support(n);
     ++looked_;
-    const Touch touch{HeightModel<D, S>(bodies_, n, point.w), point};
+    const Touch touch{pair_.model(n, point), point};
     if (touch.model.height() < lowest_) lowest_ = touch.model.height(), best_ = touch;
     if (look_) look_(looked_, n, point, lowest_, least_);
     return touch;
@@ -141,7 +142,7 @@ class EllipsoidDepth {
     if (any()) bound_by(best_.model, square);
     if (square.divided) bound(square);
     for (int k = 0; k < steps && !near_enough(square.least); ++k) {
-      const S reach = k > 0 ? square.model.reach(square.ends).chord : S(0);
+      const S reach = k > 0 ? square.model.chord(square.ends) : S(0);
       const V n = k > 0 ? square.model.step(reach) : square.direction(square.middle);
       if (k > 0 && (n - square.model.direction()).norm() <= reach / 1024) break;  // it is there
       square.model = look_along(n).model;
@@ -150,19 +151,20 @@ class EllipsoidDepth {
     if (near_enough(square.least)) settled_ = std::min(settled_, square.least);
     else squares.push(square);
   }
-  static void bound_by(const HeightModel<D, S>& model, Square& square) { square.least = std::max(square.least, model.least_within(model.reach(square.ends))); }
+  static void bound_by(const Model& model, Square& square) { square.least = std::max(square.least, model.least_among(square.ends)); }
   static void bound(Square& square) { bound_by(square.model, square); }
 
   void update(const Squares& squares) { least_ = squares.empty() ? settled_ : std::min(settled_, squares.least()); }
 
   /// The least height's slope is what its points are off by: Newton's method takes that away, where heights no longer differ but for rounding.
   OutlineDepth<D, S> answer() {
-    constexpr int steps = 8;
+    constexpr int steps = 12;
+    S most = 1;
     for (int k = 0; k < steps && best_.model.slope() > floor_ / 16; ++k) {
-      const Touch before = best_, next = look_along(before.model.step_down());
+      const Touch before = best_, next = look_along(before.model.step_down(most));
       const bool better = next.model.slope() < before.model.slope() && next.model.height() <= before.model.height() + floor_ / 2;
       best_ = better ? next : before;
-      if (!better) break;
+      if (!better) most /= 8;  // along a valley's bottom, which bends next to nothing, a step leads too far
     }
     const Touch found = best_;
     look_along(V(found.model.direction()));  // so that the last axis is the answer's
@@ -170,11 +172,11 @@ class EllipsoidDepth {
     if (lowest_ < -floor_) sat.status = SatStatus::separated;
     else if (near_enough(least_) && lowest_ > floor_) sat.status = SatStatus::overlapping;
     const bool across = found.model.slope() <= std::max(4 * floor_, tolerance_ * lowest_);
-    return {sat, across ? std::optional(SatWitnesses<D, S>{found.point.a, found.point.b}) : std::nullopt, std::max(S(0), sat.depth - least_)};
+    return {sat, across ? std::optional(pair_.witnesses(found.model, found.point)) : std::nullopt, std::max(S(0), sat.depth - least_)};
   }
 
   Difference& difference_;
-  const std::array<BentBody<D, S>, 2> bodies_;
+  const Pair& pair_;
   const S floor_;
   const AxisLook<D, S> look_;
   S tolerance_ = 0;
@@ -185,11 +187,11 @@ class EllipsoidDepth {
 };
 
 /// Witness points are the caller's to find where there are none. `most`: see EllipsoidDepth::run.
-template <class Difference, class Trace>
-OutlineDepth<Difference::D, typename Difference::S> ellipsoid_depth(Difference& difference, const BentPair<Difference::D, typename Difference::S>& pair, typename Difference::S tolerance, int most, Trace& trace) {
+template <class Difference, class Pair, class Trace>
+OutlineDepth<Difference::D, typename Difference::S> ellipsoid_depth(Difference& difference, const Pair& pair, typename Difference::S tolerance, int most, Trace& trace) {
   using V = typename Difference::V;
   if constexpr (traced<Trace>) trace(SatBegan<V, Viewed>{0, 0, 0});
-  const auto found = EllipsoidDepth<Difference>(difference, pair, outline_look(difference, trace)).run(tolerance, most);
+  const auto found = EllipsoidDepth(difference, pair, outline_look(difference, trace)).run(tolerance, most);
   if constexpr (traced<Trace>) trace(SatEnded<V, Viewed>{found.sat.iterations, found.sat.status, found.sat.normal, -static_cast<double>(found.sat.depth) - static_cast<double>(difference.radius())});
   return found;
 }

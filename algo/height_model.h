@@ -28,6 +28,7 @@
 #include <utility>
 #include <variant>
 
+#include "algo/sat.h"
 #include "shapes/support_mappings.h"
 
 namespace gjkdbg {
@@ -47,10 +48,19 @@ struct BentBody {
   }
 };
 
+template <int D, class S>
+class HeightModel;
+
 /// Of two bodies, in body 0's frame.
 template <int D, class S>
 struct BentPair {
+  using Model = HeightModel<D, S>;
   std::array<BentBody<D, S>, 2> bodies;
+
+  template <class Point>
+  Model model(const Vector<D, S>& d, const Point& point) const { return Model(bodies, d, point.w); }
+  template <class Point>
+  SatWitnesses<D, S> witnesses(const Model&, const Point& point) const { return {point.a, point.b}; }
 
   /// Unset where a body is neither an ellipsoid nor a point (a ball's core), neither is an ellipsoid, or one is too flat for its bends to be told.
   template <class Difference>
@@ -62,7 +72,7 @@ struct BentPair {
     return std::nullopt;
   }
 
- private:
+  /// Unset as above.
   template <class Core>
   static std::optional<BentBody<D, S>> bent(const Core& core, const Matrix<D, S>& axes) {
     if (std::holds_alternative<PointCore<D, S>>(core)) return BentBody<D, S>{axes};
@@ -145,10 +155,70 @@ class HeightModel {
     return std::max(least, least_by_ball(q));
   }
 
+  template <std::size_t corners>
+  S least_among(const std::array<V, corners>& ends) const { return least_within(reach(ends)); }
+  template <std::size_t corners>
+  S chord(const std::array<V, corners>& ends) const { return reach(ends).chord; }
+
+  /// What no height is below on one side of a circle of directions through d: with x the part of u along `way`, unit, across d and the circle, those with x cos(s / 2) >= turn q^2 / 2.
+  ///
+  /// With y the part of u along the circle, all that is bounded above is x (g_x + ...) and what is left of y alone, where "..." is no more than N, and no slope is less than its cosine leaves.
+  /// Where that leads upwards x is at its least: with g_x - N >= 0,
+  ///
+  ///   x >= turn y^2 / 2 for turn >= 0,   x >= -|turn| y^2 / (2 c - |turn| x_most) otherwise, c = cos(s / 2) at its least
+  ///
+  /// bends with y. Where it does not, or in the plane, as if both sides were asked for.
+  template <std::size_t corners>
+  S least_on_one_side(const std::array<V, corners>& ends, const V& way, S turn) const {
+    const Reach reach = this->reach(ends);
+    const S both = least_within(reach);
+    if constexpr (across == 2) {
+      const S q = reach.chord, q1 = reach.along[0], q2 = reach.along[across - 1], second = q * q, cos = std::sqrt(std::max(S(0), 1 - second / 4));
+      const S w1 = way.dot(axes_[0]), w2 = way.dot(axes_[across - 1]), s1 = std::abs(w1), s2 = std::abs(w2);
+      const S x_most = std::min(q, q1 * s1 + q2 * s2), y_most = std::min(q, q1 * s2 + q2 * s1);
+      const S more = q1 * q1 / 6 * std::abs(cubic_[1]) + 2 * second * q1 * mixed_;  // of |u2|
+      const S first = bend_[0] - q1 / 3 * std::abs(cubic_[0]) - 2 * second * quartic_[0], last = bend_[across - 1] - (q1 * std::abs(cubic_[2]) + q2 * std::abs(cubic_[3])) / 3 - 2 * second * quartic_[across - 1];
+      const S bend_x = first * w1 * w1 + last * w2 * w2, bend_xy = (last - first) * w1 * w2;
+      const S slope_x = slope_[0] * w1 + slope_[across - 1] * w2, slope_y = std::abs(slope_[across - 1] * w1 - slope_[0] * w2) + more * s1;
+      const S most = more * s2 + std::abs(bend_xy) * y_most + std::max(S(0), -bend_x) * x_most / 2, upwards = cos * slope_x - most, left = 2 * cos - std::abs(turn) * x_most;
+      if (!(upwards >= 0 && left > cos)) return both;
+      const S bend_y = first * w2 * w2 + last * w1 * w1 + (turn >= 0 ? upwards * turn : 2 * (slope_x + most) * turn / left);
+      const bool within = bend_y > 0 && slope_y <= bend_y * y_most;
+      return std::max(both, height_ + (within ? -slope_y * slope_y / (2 * bend_y) : bend_y * y_most * y_most / 2 - slope_y * y_most));
+    }
+    return both;
+  }
+
+  /// As above, where a disc of this radius is across d, of which w has the middle: its height is the radius times sin(s) = |u| cos(s / 2), and rises to all sides. Where it rises more than all else falls the height is
+  /// least along d.
+  template <std::size_t corners>
+  S least_above(const std::array<V, corners>& ends, S radius) const {
+    const Reach reach = this->reach(ends);
+    if constexpr (across == 2) {
+      const S q = reach.chord, second = q * q, rise = radius * std::sqrt(std::max(S(0), 1 - second / 4));
+      S worst = std::abs(mixed_) * 2;
+      for (const S x : cubic_) worst += std::abs(x) / 6;
+      for (const S x : quartic_) worst += 2 * x;  // of |u|^3 and more, for q <= 1
+      const S fall = slope() + q * std::max(S(0), -std::min(bend_[0], bend_[across - 1])) / 2 + second * worst;
+      if (q <= 1 && rise >= fall) return height_;
+    }
+    return least_within(reach);
+  }
+
+  /// Whether the height falls all the way to d + v, as far as slope and bends say.
+  bool falls_along(const V& v) const {
+    S rate = 0;
+    for (int i = 0; i < across; ++i) {
+      const S x = axes_[at(i)].dot(v);
+      rate += (slope_[at(i)] + bend_[at(i)] * x) * x;
+    }
+    return rate < 0;
+  }
+
   /// Newton's step to where the height is least, along the axes that bend towards that, and along each of them no farther than `most`.
   V step(S most) const { return moved([&](std::size_t i) { return bend_[i] > 0 ? std::clamp(-slope_[i] / bend_[i], -most, most) : S(0); }); }
-  /// Along every axis downhill; as far as Newton's step leads, at most by 1.
-  V step_down() const { return moved([&](std::size_t i) { return slope_[i] == 0 ? S(0) : std::clamp(-slope_[i] / std::abs(bend_[i]), S(-1), S(1)); }); }
+  /// Along every axis downhill; as far as Newton's step leads, at most by this.
+  V step_down(S most) const { return moved([&](std::size_t i) { return slope_[i] == 0 ? S(0) : std::clamp(-slope_[i] / std::abs(bend_[i]), -most, most); }); }
 
  private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -162,7 +232,7 @@ class HeightModel {
 
   S least_by_ball(S q) const {
     const S rest = height_ - ball_, aside = slope(), cos = 1 - q * q / 2, sin = q * std::sqrt(std::max(S(0), 1 - q * q / 4));
-    if (aside * cos < -rest * sin) return ball_ - std::hypot(rest, aside);
+    if (aside * cos <= -rest * sin) return ball_ - std::hypot(rest, aside);
     return ball_ + rest * cos - aside * sin;
   }
 

@@ -150,7 +150,7 @@ std::optional<OutlineDepth<Difference::D, typename Difference::S>> near_balls(Di
     if constexpr (traced<Trace>) trace(SatBegan<V, Viewed>{0, 0, 0});
     OutlineDepth<D, S> found = NearBalls<Difference>(difference, *balls, tolerance, outline_look(difference, trace)).run(most);
     if (const auto pair = BentPair<D, S>::of(difference); pair && found.sat.status == SatStatus::undecided && fair_for_epa(most)) {
-      EllipsoidDepth<Difference> by_bends(difference, *pair, outline_look(difference, trace));
+      EllipsoidDepth by_bends(difference, *pair, outline_look(difference, trace));
       by_bends.go_on(found.sat.iterations, found.sat.normal);
       found = by_bends.run(tolerance, most);
     }

@@ -4,6 +4,7 @@
 #include "algo/ellipsoid_depth.h"
 #include "algo/near_balls.h"
 #include "algo/revolution_sat.h"
+#include "algo/rod_heights.h"
 #include "algo/tilted_axes.h"
 #include "algo/tilted_spheroids.h"
 
@@ -20,12 +21,14 @@ std::optional<OutlineDepth<Difference::D, typename Difference::S>> outline_depth
   return near_balls(difference, tolerance, most, trace);
 }
 
-/// For where EPA came to its limit. Unset where that was too low to tell, or the bodies are no ellipsoids.
+/// For where EPA came to its limit. Unset where that was too low to tell, or their bends are not known.
 template <class Difference, class Trace>
 std::optional<OutlineDepth<Difference::D, typename Difference::S>> depth_by_bends(Difference& difference, typename Difference::S tolerance, int most, Trace& trace) {
   if (!fair_for_epa(most)) return std::nullopt;
   if constexpr (Difference::D > 1)
     if (const auto pair = BentPair<Difference::D, typename Difference::S>::of(difference)) return ellipsoid_depth(difference, *pair, tolerance, most, trace);
+  if constexpr (Difference::D == 3)
+    if (const auto pair = RodPair<typename Difference::S>::of(difference)) return ellipsoid_depth(difference, *pair, tolerance, most, trace);
   return std::nullopt;
 }
 

@@ -31,8 +31,10 @@
 #include <numbers>
 #include <optional>
 
+#include "algo/ellipsoid_depth.h"
 #include "algo/outline_arcs.h"
 #include "algo/revolution_sat.h"
+#include "algo/rod_heights.h"
 
 namespace gjkdbg {
 
@@ -49,7 +51,6 @@ class TiltedAxes {
 
   /// `overlapping` where the depth is known within rounding, or this tolerance, a part of it. With some 16 supports for each of `most`, of which EPA's steps would take longer.
   const SatResult<3, S>& run(S tolerance, int most) {
-    trace_(SatBegan<V, Viewed>{0, 0, 0});
     tolerance_ = tolerance, most_ = 16 * std::int64_t{most};
     turn_about(flattest_is_b() ? pair_.b : pair_.a);
     down_ = look_along(-u_), up_ = look_along(u_);
@@ -65,7 +66,6 @@ class TiltedAxes {
     const bool known = near_enough(least_) && result_.depth > floor_;
     result_.status = known ? SatStatus::overlapping : result_.depth < -floor_ ? SatStatus::separated : SatStatus::undecided;
     look_along(V(result_.normal));  // so that the last axis is the answer's
-    trace_(SatEnded<V, Viewed>{result_.iterations, result_.status, result_.normal, static_cast<double>(-result_.depth) - static_cast<double>(difference_.radius())});
     return result_;
   }
 
@@ -171,15 +171,25 @@ class TiltedAxes {
   SatResult<3, S> result_;
 };
 
-/// Unset where they are none, or their axes too far from one another for it to be worth while. Witness points are the caller's to find. `most`: see TiltedAxes::run.
+/// Unset where they are none, or their axes too far from one another for it to be worth while. What sections leave open of an ellipsoid and a rod their bends may tell. Witness points are the caller's to find
+/// where there are none. `most`: see TiltedAxes::run.
 template <class Difference, class Trace>
 std::optional<OutlineDepth<3, typename Difference::S>> tilted_axes(Difference& difference, typename Difference::S tolerance, int most, Trace& trace) {
   using S = typename Difference::S;
+  using V = Vector<3, S>;
   const auto pair = RevolvedPair<S>::of_tilted(difference);
   if (!pair) return std::nullopt;
+  trace(SatBegan<V, Viewed>{0, 0, 0});
   TiltedAxes<Difference, Trace> outline(difference, *pair, trace);
-  const SatResult<3, S> found = outline.run(tolerance, most);
-  return OutlineDepth<3, S>{found, std::nullopt, outline.slack()};
+  OutlineDepth<3, S> found{outline.run(tolerance, most), std::nullopt, 0};
+  found.slack = outline.slack();
+  if (const auto rod = RodPair<S>::of(difference); rod && found.sat.status == SatStatus::undecided && fair_for_epa(most)) {
+    EllipsoidDepth by_bends(difference, *rod, outline_look(difference, trace));
+    by_bends.go_on(found.sat.iterations, found.sat.normal);
+    found = by_bends.run(tolerance, most);
+  }
+  trace(SatEnded<V, Viewed>{found.sat.iterations, found.sat.status, found.sat.normal, -static_cast<double>(found.sat.depth) - static_cast<double>(difference.radius())});
+  return found;
 }
 
 }  // namespace gjkdbg

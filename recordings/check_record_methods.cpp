@@ -170,7 +170,7 @@ void RecordCheck::judge(const recorded::LinesSolved& e) {
   if (!segments_) return;
   // A place is missing of points, and of both lines where they are parallel.
   const AnyVector &u = segments_->edge_a, &v = segments_->edge_b;
-  const bool parallel = !u.isZero(0) && !v.isZero(0) && (u.normalized() - u.normalized().dot(v.normalized()) * v.normalized()).norm() <= 1e-6;
+  const bool parallel = !u.isZero(0) && !v.isZero(0) && (u.normalized() - u.normalized().dot(v.normalized()) * v.normalized()).norm() <= std::max(1e-6, std::sqrt(c_.digits()));
   for (const auto& [name, parameter, edge] : {std::tuple("s", e.s, &u), std::tuple("t", e.t, &v)})
     if (!std::isfinite(parameter) && !edge->isZero(0) && !parallel) return contradiction("The line of the edge " + text_of(*edge) + " is not parallel to the other, but \"" + name + "\", where it is nearest to that, is not said.");
   if (!std::isfinite(e.s) && !std::isfinite(e.t)) return;

@@ -4,6 +4,7 @@
 
 #include "algo/minkowski_difference.h"
 #include "algo/revolution_sat.h"
+#include "algo/rod_heights.h"
 #include "algo/rolling_balls.h"
 #include "algo/tilted_spheroids.h"
 #include "algo/working_scale.h"
@@ -57,8 +58,8 @@ bool any_pair(const Recording& recording, const Kind& kind) {
 bool nearly_balls(const Recording& recording) {
   return any_pair(recording, []<class Difference>(const Difference& difference) { return RollingBalls<typename Difference::S>::of(difference).has_value(); });
 }
-bool ellipsoids(const Recording& recording) {
-  return any_pair(recording, []<class Difference>(const Difference& difference) { return BentPair<Difference::D, typename Difference::S>::of(difference).has_value(); });
+bool bends_are_known(const Recording& recording) {
+  return any_pair(recording, []<class Difference>(const Difference& difference) { return has_bends(difference); });
 }
 
 template <class S>
@@ -80,7 +81,7 @@ std::optional<DepthOutline> about_nearly_one_line(const Recording& recording) {
 }  // namespace
 
 bool may_have_outline(const Recording& recording) {
-  return asks_for_depth(recording) && (count_of_bodies(recording.scene.scene, [](const auto&) { return true; }) >= 2 || ellipsoids(recording));
+  return asks_for_depth(recording) && (count_of_bodies(recording.scene.scene, [](const auto&) { return true; }) >= 2 || bends_are_known(recording));
 }
 
 std::optional<DepthOutline> outline_of(const Recording& recording) {
@@ -90,7 +91,7 @@ std::optional<DepthOutline> outline_of(const Recording& recording) {
   if (space) found = single ? of_revolution<float>(recording) : of_revolution<double>(recording);
   if (!found && space) found = single ? about_nearly_one_line<float>(recording) : about_nearly_one_line<double>(recording);
   if (!found && nearly_balls(recording)) found = DepthOutline{OutlineKind::near_balls};
-  if (!found && ellipsoids(recording)) found = DepthOutline{OutlineKind::bends};
+  if (!found && bends_are_known(recording)) found = DepthOutline{OutlineKind::bends};
   return found;
 }
 

@@ -108,6 +108,21 @@ TEST(HeightModel, LosesNothingWhereTheHeightIsLeast) {
   EXPECT_NEAR(model.least_within(model.reach(0.3)), 1, 1e-15);
 }
 
+/// From the nearest pole of what is nearly a ball, beside the origin, the heights rise to the other pole. Of all directions the bound is the nearest one's, as it was not where the slope was zero to the last bit.
+TEST(HeightModel, KnowsTheWholeSphere) {
+  BentScenes random(7);
+  const Scene scene = random.pair(3, Ellipsoid{AnyVector(Eigen::Vector3d(1, 1, 0.9))}, Sphere{0.1}, 0, 0);
+  const Convex<3, double> a(scene.bodies[0].shape, 1), b(scene.bodies[1].shape, 1);
+  Pose beside = scene.bodies[1].pose;
+  beside.position = Eigen::Vector3d(0, 0, 0.5);
+  MinkowskiDifference<3, double, Convex<3, double>> difference(a, b, scene.bodies[0].pose, beside, 1);
+  const Eigen::Vector3d d = Eigen::Vector3d::UnitZ();
+  const HeightModel<3, double> model(BentPair<3, double>::of(difference).value().bodies, d, difference.support(d).w);
+  EXPECT_EQ(model.height(), 0.9 - 0.5);
+  EXPECT_EQ(model.slope(), 0);
+  EXPECT_LE(model.least_within(model.reach(2.0)), 0.9 - 0.5);
+}
+
 /// Newton's step of an ellipsoid and a point beside its middle leads to the least height, each time squaring what is missing.
 TEST(HeightModel, ItsStepsLeadToTheLeastHeight) {
   BentScenes random(3);
@@ -117,7 +132,7 @@ TEST(HeightModel, ItsStepsLeadToTheLeastHeight) {
   const auto bodies = BentPair<3, double>::of(difference)->bodies;
   const auto at = [&](const Eigen::Vector3d& n) { return HeightModel<3, double>(bodies, n, difference.support(n).w); };
   HeightModel<3, double> model = at(Eigen::Vector3d(0.3, 0.2, scene.bodies[1].pose.position[2] > 0 ? 1 : -1).normalized());
-  for (int i = 0; i < 6; ++i) model = at(model.step_down());
+  for (int i = 0; i < 6; ++i) model = at(model.step_down(1));
   EXPECT_LT(model.slope(), 1e-14);
 }
 
