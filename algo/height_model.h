@@ -139,20 +139,34 @@ class HeightModel {
   }
 
   /// What no height is below along directions no farther than this.
+  ///
+  /// Where the height bends upwards along an axis, only so far along it may a height be less than this one as all else lets it fall: the bound within that is one of all, and what falls there is less.
   S least_within(const Reach& reach) const {
-    const S q = reach.chord, q1 = reach.along[0], q2 = reach.along[across - 1], second = q * q;
-    std::array<S, 2> slope{std::abs(slope_[0]), 0}, bend{bend_[0] - q1 / 3 * std::abs(cubic_[0]) - 2 * second * quartic_[0], 0};
-    S least = height_;
-    if constexpr (across == 2) {
-      slope[1] = std::abs(slope_[1]) + q1 * q1 / 6 * std::abs(cubic_[1]) + 2 * second * q1 * mixed_;
-      bend[1] = bend_[1] - (q1 * std::abs(cubic_[2]) + q2 * std::abs(cubic_[3])) / 3 - 2 * second * quartic_[1];
+    constexpr int rounds = 3;
+    Reach near = reach;
+    S least = -std::numeric_limits<S>::infinity();
+    for (int round = 0; round < rounds; ++round) {
+      const S q1 = near.along[0], q2 = near.along[across - 1], second = std::min(near.chord * near.chord, q1 * q1 + q2 * q2);
+      std::array<S, 2> slope{std::abs(slope_[0]), 0}, bend{bend_[0] - q1 / 3 * std::abs(cubic_[0]) - 2 * second * quartic_[0], 0}, fall{};
+      if constexpr (across == 2) {
+        slope[1] = std::abs(slope_[1]) + q1 * q1 / 6 * std::abs(cubic_[1]) + 2 * second * q1 * mixed_;
+        bend[1] = bend_[1] - (q1 * std::abs(cubic_[2]) + q2 * std::abs(cubic_[3])) / 3 - 2 * second * quartic_[1];
+      }
+      for (std::size_t i = 0; i < at(across); ++i) {
+        const S most = near.along[i];
+        const bool within = bend[i] > 0 && slope[i] <= bend[i] * most;
+        fall[i] = within ? slope[i] * slope[i] / (2 * bend[i]) : slope[i] * most - bend[i] * most * most / 2;
+      }
+      least = std::max(least, height_ - fall[0] - fall[1]);
+      bool nearer = false;
+      for (std::size_t i = 0; i < at(across); ++i) {
+        if (!(bend[i] > 0)) continue;
+        const S most = (slope[i] + std::sqrt(slope[i] * slope[i] + 2 * bend[i] * std::max(S(0), fall[1 - i]))) / bend[i];
+        if (most < near.along[i] / 2) near.along[i] = most, nearer = true;
+      }
+      if (!nearer) break;
     }
-    for (std::size_t i = 0; i < at(across); ++i) {
-      const S most = reach.along[i];
-      const bool within = bend[i] > 0 && slope[i] <= bend[i] * most;
-      least += within ? -slope[i] * slope[i] / (2 * bend[i]) : bend[i] * most * most / 2 - slope[i] * most;
-    }
-    return std::max(least, least_by_ball(q));
+    return std::max(least, least_by_ball(reach.chord));
   }
 
   template <std::size_t corners>

@@ -94,12 +94,15 @@ void overlaps(std::vector<AtlasFamily>& out, bool quick) {
     tilted.cases.push_back({tilt, pair(ellipsoid(vec(0.75, 0.75, 1.5), vec(0, 0, 0)), ellipsoid(vec(0.5, 0.5, 1), vec(0, 0, 0))), -1.25});
     tilted.cases.back().scene.bodies[1].pose.matrix = Eigen::AngleAxisd(tilt, vec(1, 0, 0)).toRotationMatrix();
   }
+  AtlasFamily rod{"C8", "a cylinder on the axis of what is nearly a spheroid: along its side a whole circle of directions is nearly as near", {}};
+  for (const double unlike : powers(1e-12, 1, quick))  // across, both are thinnest along x
+    rod.cases.push_back({unlike, pair(ellipsoid(vec(0.75, 0.75 * (1 + unlike), 1.5), vec(0, 0, 0)), {"", {Cylinder{0.5, 1, 2}, 0}, identity_pose(3)}), -1.25});
   AtlasFamily shallow{"E1", "stacked boxes, a little deep: the origin lies on a face of the first tetrahedron and the contact is dropped", {}};
   for (const double d : powers(1e-14, 1e-1, quick)) {
     const double z = 0.4 - d;
     shallow.cases.push_back({d, pair(cube(vec(0, 0, 0), 0.2), cube(vec(0, 0, z), 0.2)), z - 0.4});
   }
-  out.push_back(stacked), out.push_back(same), out.push_back(spheres), out.push_back(deep), out.push_back(ring), out.push_back(tilted), out.push_back(shallow);
+  out.push_back(stacked), out.push_back(same), out.push_back(spheres), out.push_back(deep), out.push_back(ring), out.push_back(tilted), out.push_back(rod), out.push_back(shallow);
 }
 
 /// Triangles tip to tip in the plane, wedges edge to edge in space.

@@ -54,7 +54,7 @@ Explanation ExplainMethods::operator()(const recorded::SatBegan& e) const {
   if (of_bends(recording)) {
     const bool after_epa = frame.step > 0 && std::holds_alternative<recorded::EpaEnded>(recording.events[frame.step - 1]);
     return {after_epa ? "By the bends, after EPA" : "By the bends, instead of EPA",
-            std::string("Many ways out are nearly as short, and EPA ") + (after_epa ? "ran out of steps" : "may run out of steps") + ": between its corners a flat face is all it knows of a round boundary. But how an ellipsoid bends is known, and so about every direction that is looked along, " +
+            std::string("Many ways out are nearly as short, and EPA ") + (after_epa ? "ran out of steps" : "may run out of steps") + ": between its corners a flat face is all it knows of a round boundary. But how an ellipsoid bends is known" + (rod() ? ", and a rod is all between two discs, ellipsoids without height" : "") + ". So about every direction that is looked along it is known " +
                 "what no direction near it comes below. The sides of a cube are squares of directions: those where a shorter way out may be are divided until there are none."};
   }
   if (of_an_outline(recording) && !outline_told(recording) && e.faces_a + e.faces_b == 0)
@@ -98,6 +98,14 @@ Explanation ExplainMethods::operator()(const recorded::PointsProjected& e) const
   const std::string why = "No axis tells how far the bodies are apart: nearest to each other are " + std::string(recording.scene.scene.dimension == 2 && boxes() ? "" : "a corner and an edge, or ") + "two corners. ";
   if (boxes()) return {"The nearest points, at a corner", why + "Of the " + facet() + "s of " + difference() + " that face O the one nearest to it has them: " + points + "A plane across them has all of " + difference() + " behind it, so nothing is nearer."};
   return {"Points projected in turn", why + "So a point looks for the nearest of the other body, and that for its nearest: " + points + "Two points that are each the nearest to the other are the closest of all."};
+}
+
+/// Whether a body is one whose bends are those of discs: see algo/rod_heights.h.
+bool ExplainMethods::rod() const {
+  return std::any_of(recording.scene.scene.bodies.begin(), recording.scene.scene.bodies.end(), [](const Body& body) {
+    const auto& g = body.shape.geometry;
+    return std::holds_alternative<Cylinder>(g) || std::holds_alternative<Cone>(g) || std::holds_alternative<Capsule>(g) || std::holds_alternative<PointSet>(g);
+  });
 }
 
 bool ExplainMethods::boxes() const { return of_two_boxes(recording, frame.step); }

@@ -31,6 +31,7 @@ struct ExplainMethods : ExplainMotion {
  private:
   bool ends_in(MprStatus status) const;  ///< with the next step
   bool boxes() const;
+  bool rod() const;
   bool farther(const recorded::PointsProjected& e) const;
   bool gjk_follows() const;
 };
