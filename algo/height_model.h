@@ -142,10 +142,10 @@ class HeightModel {
   ///
   /// Where the height bends upwards along an axis, only so far along it may a height be less than this one as all else lets it fall: the bound within that is one of all, and what falls there is less.
   S least_within(const Reach& reach) const {
-    constexpr int rounds = 3;
+    constexpr int looks = 3;
     Reach near = reach;
     S least = -std::numeric_limits<S>::infinity();
-    for (int round = 0; round < rounds; ++round) {
+    for (int look = 0; look < looks; ++look) {
       const S q1 = near.along[0], q2 = near.along[across - 1], second = std::min(near.chord * near.chord, q1 * q1 + q2 * q2);
       std::array<S, 2> slope{std::abs(slope_[0]), 0}, bend{bend_[0] - q1 / 3 * std::abs(cubic_[0]) - 2 * second * quartic_[0], 0}, fall{};
       if constexpr (across == 2) {
