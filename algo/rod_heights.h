@@ -8,11 +8,11 @@
 //   together bend more than a ball about the origin does;
 //   the lower of both, each on its own side of the fold, where d lies on it (HeightModel::least_on_one_side): the slopes there lead upwards on both sides, whatever the bends.
 //
-// On its own side of the fold are directions with n . axis >= sin(a): for u = q t of the one, n = cos(s) d + sin(s) t, d . axis = sin(a), x of u across the fold,
+// With d on the fold, d . axis = sin(a), and n = cos(s) d + sin(s) t, u = q t as there, the directions above the fold, n . axis >= sin(a), are those where for x, the part of u towards the axis,
 //
-//   x cos(s / 2) >= tan(a) q^2 / 2
+//   sin(s) (x / q) cos(a) >= sin(a) (1 - cos(s)),  so  x cos(s / 2) >= tan(a) q^2 / 2
 //
-// Next to the axis a disc bends without bound: there a point of it is taken, of which there is one where the slope vanishes if any of the disc does.
+// Next to the axis a disc bends without bound, and all of it is as far along the axis itself: there a point of the disc is taken, the one where the slope vanishes, if there is one.
 #pragma once
 
 #include <algorithm>

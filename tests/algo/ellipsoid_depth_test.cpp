@@ -10,6 +10,7 @@
 #include "algo/solve.h"
 #include "recordings/check.h"
 #include "recordings/recording.h"
+#include "tests/support/has_event.h"
 #include "tests/support/heights.h"
 #include "tests/support/random_scenes.h"
 
@@ -134,10 +135,6 @@ TEST(HeightModel, ItsStepsLeadToTheLeastHeight) {
   HeightModel<3, double> model = at(Eigen::Vector3d(0.3, 0.2, scene.bodies[1].pose.position[2] > 0 ? 1 : -1).normalized());
   for (int i = 0; i < 6; ++i) model = at(model.step_down(1));
   EXPECT_LT(model.slope(), 1e-14);
-}
-
-bool has_event(const Recording& run, std::string_view kind) {
-  return std::any_of(run.events.begin(), run.events.end(), [&](const Event& e) { return kind_name(e) == kind; });
 }
 
 /// Spheroids but for a little, turned against one another by a little or by much, about one middle or beside it: all that EPA gave up on, with bounds up to 1e-3 apart.

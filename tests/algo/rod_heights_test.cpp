@@ -12,6 +12,7 @@
 #include "recordings/check.h"
 #include "recordings/check_context.h"
 #include "recordings/recording.h"
+#include "tests/support/has_event.h"
 #include "tests/support/heights.h"
 #include "tests/support/random_scenes.h"
 
@@ -120,10 +121,6 @@ TEST(RodHeights, LoseNothingAcrossTheFold) {
   }
 }
 
-bool tells(const Recording& run, std::string_view kind) {
-  return std::any_of(run.events.begin(), run.events.end(), [&](const Event& e) { return kind_name(e) == kind; });
-}
-
 /// About one middle, or beside it, a rod in what is a spheroid but for a little: of most of these EPA came to its limit, with bounds up to 6e-4 of the depth apart.
 Scene in_nearly_a_spheroid(RodScenes& random, int k) {
   const double waist = random.uniform(0.3, 1.5), unlike = k % 4 == 0 ? 0 : std::pow(10, random.uniform(-4, -1));
@@ -145,7 +142,7 @@ TEST(RodHeights, TellTheDepthOfWhatEpaGaveUpOn) {
     EXPECT_LE(*r.upper_bound - *r.lower_bound, 2e-10 * -*r.signed_distance) << k;
     EXPECT_NEAR((*r.witness_a - *r.witness_b + *r.normal * *r.signed_distance).norm(), 0, 1e-9) << k;
     for (int i = 0; i < 12; ++i) EXPECT_GE(heights.below(random.direction()), -*r.upper_bound - 1e-13) << k;
-    const bool bends = tells(run, "sat_began") && tells(run, "epa_ended");
+    const bool bends = has_event(run, "sat_began") && has_event(run, "epa_ended");
     EXPECT_LE(outside(file.scene, 0, *r.witness_a) + outside(file.scene, 1, *r.witness_b), bends ? 1e-9 : 1e-6) << k;
     if (bends && ++after % 10 == 1) { EXPECT_TRUE(check(run).empty()) << k << ": " << check(run)[0].message; }  // it looks at 512 polytopes
     most = std::max(most, r.support_calls);
