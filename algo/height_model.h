@@ -176,12 +176,12 @@ class HeightModel {
 
   /// What no height is below on one side of a circle of directions through d: with x the part of u along `way`, unit, across d and the circle, those with x cos(s / 2) >= turn q^2 / 2.
   ///
-  /// With y the part of u along the circle, all that is bounded above is x (g_x + ...) and what is left of y alone, where "..." is no more than N, and no slope is less than its cosine leaves.
-  /// Where that leads upwards x is at its least: with g_x - N >= 0,
+  /// With y the part of u along the circle, all terms of the bound that have x in them come to x (g_x cos(s / 2) + e), |e| <= N: what of the higher terms counts as |u2|, the mixed bend, and x's own where that is
+  /// downwards. With c the least cos(s / 2), and c g_x - N >= 0, they are least where x is,
   ///
-  ///   x >= turn y^2 / 2 for turn >= 0,   x >= -|turn| y^2 / (2 c - |turn| x_most) otherwise, c = cos(s / 2) at its least
+  ///   x >= turn y^2 / 2 for turn >= 0,   x >= -|turn| y^2 / (2 c - |turn| x_most) otherwise
   ///
-  /// bends with y. Where it does not, or in the plane, as if both sides were asked for.
+  /// so that they add (c g_x - N) turn to y's bend, or -2 (g_x + N) |turn| / (2 c - |turn| x_most). Where they lead downwards, or in the plane, the bound is that of both sides.
   template <std::size_t corners>
   S least_on_one_side(const std::array<V, corners>& ends, const V& way, S turn) const {
     const Reach reach = this->reach(ends);
