@@ -143,7 +143,7 @@ TEST(RodHeights, TellTheDepthOfWhatEpaGaveUpOn) {
     EXPECT_NEAR((*r.witness_a - *r.witness_b + *r.normal * *r.signed_distance).norm(), 0, 1e-9) << k;
     for (int i = 0; i < 12; ++i) EXPECT_GE(heights.below(random.direction()), -*r.upper_bound - 1e-13) << k;
     const bool bends = has_event(run, "sat_began") && has_event(run, "epa_ended");
-    EXPECT_LE(outside(file.scene, 0, *r.witness_a) + outside(file.scene, 1, *r.witness_b), bends ? 1e-9 : 1e-6) << k;
+    EXPECT_LE(outside(file.scene, std::size_t{0}, *r.witness_a) + outside(file.scene, std::size_t{1}, *r.witness_b), bends ? 1e-9 : 1e-6) << k;
     if (bends && ++after % 10 == 1) { EXPECT_TRUE(check(run).empty()) << k << ": " << check(run)[0].message; }  // it looks at 512 polytopes
     most = std::max(most, r.support_calls);
   }
