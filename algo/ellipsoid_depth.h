@@ -186,6 +186,15 @@ class EllipsoidDepth {
   Touch best_;  ///< of the least height
 };
 
+/// What others left undecided, if there is a pair whose bends are known, and EPA was to have a fair chance as well.
+template <class Difference, class Pair, class Trace>
+void go_on_by_bends(Difference& difference, const std::optional<Pair>& pair, OutlineDepth<Difference::D, typename Difference::S>& found, typename Difference::S tolerance, int most, Trace& trace) {
+  if (!pair || found.sat.status != SatStatus::undecided || !fair_for_epa(most)) return;
+  EllipsoidDepth by_bends(difference, *pair, outline_look(difference, trace));
+  by_bends.go_on(found.sat.iterations, found.sat.normal);
+  found = by_bends.run(tolerance, most);
+}
+
 /// Witness points are the caller's to find where there are none. `most`: see EllipsoidDepth::run.
 template <class Difference, class Pair, class Trace>
 OutlineDepth<Difference::D, typename Difference::S> ellipsoid_depth(Difference& difference, const Pair& pair, typename Difference::S tolerance, int most, Trace& trace) {

@@ -149,11 +149,7 @@ std::optional<OutlineDepth<Difference::D, typename Difference::S>> near_balls(Di
     const double radius = static_cast<double>(difference.radius());
     if constexpr (traced<Trace>) trace(SatBegan<V, Viewed>{0, 0, 0});
     OutlineDepth<D, S> found = NearBalls<Difference>(difference, *balls, tolerance, outline_look(difference, trace)).run(most);
-    if (const auto pair = BentPair<D, S>::of(difference); pair && found.sat.status == SatStatus::undecided && fair_for_epa(most)) {
-      EllipsoidDepth by_bends(difference, *pair, outline_look(difference, trace));
-      by_bends.go_on(found.sat.iterations, found.sat.normal);
-      found = by_bends.run(tolerance, most);
-    }
+    go_on_by_bends(difference, BentPair<D, S>::of(difference), found, tolerance, most, trace);
     if constexpr (traced<Trace>) trace(SatEnded<V, Viewed>{found.sat.iterations, found.sat.status, found.sat.normal, -static_cast<double>(found.sat.depth) - radius});
     return found;
   }

@@ -179,16 +179,12 @@ std::optional<OutlineDepth<3, typename Difference::S>> tilted_axes(Difference& d
   using V = Vector<3, S>;
   const auto pair = RevolvedPair<S>::of_tilted(difference);
   if (!pair) return std::nullopt;
-  trace(SatBegan<V, Viewed>{0, 0, 0});
+  if constexpr (traced<Trace>) trace(SatBegan<V, Viewed>{0, 0, 0});
   TiltedAxes<Difference, Trace> outline(difference, *pair, trace);
-  OutlineDepth<3, S> found{outline.run(tolerance, most), std::nullopt, 0};
-  found.slack = outline.slack();
-  if (const auto rod = RodPair<S>::of(difference); rod && found.sat.status == SatStatus::undecided && fair_for_epa(most)) {
-    EllipsoidDepth by_bends(difference, *rod, outline_look(difference, trace));
-    by_bends.go_on(found.sat.iterations, found.sat.normal);
-    found = by_bends.run(tolerance, most);
-  }
-  trace(SatEnded<V, Viewed>{found.sat.iterations, found.sat.status, found.sat.normal, -static_cast<double>(found.sat.depth) - static_cast<double>(difference.radius())});
+  const SatResult<3, S> by_sections = outline.run(tolerance, most);
+  OutlineDepth<3, S> found{by_sections, std::nullopt, outline.slack()};
+  go_on_by_bends(difference, RodPair<S>::of(difference), found, tolerance, most, trace);
+  if constexpr (traced<Trace>) trace(SatEnded<V, Viewed>{found.sat.iterations, found.sat.status, found.sat.normal, -static_cast<double>(found.sat.depth) - static_cast<double>(difference.radius())});
   return found;
 }
 
