@@ -176,12 +176,17 @@ class HeightModel {
 
   /// What no height is below on one side of a circle of directions through d: with x the part of u along `way`, unit, across d and the circle, those with x cos(s / 2) >= turn q^2 / 2.
   ///
-  /// With y the part of u along the circle, all terms of the bound that have x in them come to x (g_x cos(s / 2) + e), |e| <= N: what of the higher terms counts as |u2|, the mixed bend, and x's own where that is
-  /// downwards. With c the least cos(s / 2), and c g_x - N >= 0, they are least where x is,
+  /// With y the part of u along the circle, b x's own bend, all terms of the bound that have x in them come to x (g_x cos(s / 2) + e) + b x^2 / 2, |e| <= N: what of the higher terms counts as |u2|, and the mixed
+  /// bend. With c the least cos(s / 2), they are no less than f(x) = (c g_x - N) x + b x^2 / 2 for x >= 0, (g_x + N) x + b x^2 / 2 for x <= 0, and
   ///
-  ///   x >= turn y^2 / 2 for turn >= 0,   x >= -|turn| y^2 / (2 c - |turn| x_most) otherwise
+  ///   x >= x0,   x0 = turn (x0^2 + y^2) / 2             for turn >= 0
+  ///   x >= -x0,  x0 = |turn| (x0^2 + y^2) / (2 c)       otherwise, for |turn| x <= c: the other root is beyond that
   ///
-  /// so that they add (c g_x - N) turn to y's bend, or -2 (g_x + N) |turn| / (2 c - |turn| x_most). Where they lead downwards, or in the plane, the bound is that of both sides.
+  /// with x0 = |turn| y^2 / (C + sqrt(C^2 - turn^2 y^2)), C = 1 or c, no more than k y^2, the root at y_most. Where f rises up to there, and is no less at x_most, it is least at x0, or -x0, where it comes to
+  ///
+  ///   a y^2 / 2 + (b + a) x0^2 / 2,   a = (c g_x - N) turn,   or a = (g_x + N) turn / c
+  ///
+  /// which is exact on the circle: that b and a cancel is how a circle of heights that are all the same shows. Where f leads downwards, or in the plane, the bound is that of both sides.
   template <std::size_t corners>
   S least_on_one_side(const std::array<V, corners>& ends, const V& way, S turn) const {
     const Reach reach = this->reach(ends);
@@ -189,14 +194,19 @@ class HeightModel {
     if constexpr (across == 2) {
       const S q = reach.chord, q1 = reach.along[0], q2 = reach.along[across - 1], second = q * q, cos = std::sqrt(std::max(S(0), 1 - second / 4));
       const S w1 = way.dot(axes_[0]), w2 = way.dot(axes_[across - 1]), s1 = std::abs(w1), s2 = std::abs(w2);
-      const S x_most = std::min(q, q1 * s1 + q2 * s2), y_most = std::min(q, q1 * s2 + q2 * s1);
+      const S x_most = std::min(q, q1 * s1 + q2 * s2), y_most = std::min(q, q1 * s2 + q2 * s1), bent = std::abs(turn) * y_most, whole = turn >= 0 ? S(1) : cos;
+      if (turn < 0 && !(std::max(-turn * x_most, bent) < cos)) return both;
       const S more = q1 * q1 / 6 * std::abs(cubic_[1]) + 2 * second * q1 * mixed_;  // of |u2|
       const S first = bend_[0] - q1 / 3 * std::abs(cubic_[0]) - 2 * second * quartic_[0], last = bend_[across - 1] - (q1 * std::abs(cubic_[2]) + q2 * std::abs(cubic_[3])) / 3 - 2 * second * quartic_[across - 1];
       const S bend_x = first * w1 * w1 + last * w2 * w2, bend_xy = (last - first) * w1 * w2;
       const S slope_x = slope_[0] * w1 + slope_[across - 1] * w2, slope_y = std::abs(slope_[across - 1] * w1 - slope_[0] * w2) + more * s1;
-      const S most = more * s2 + std::abs(bend_xy) * y_most + std::max(S(0), -bend_x) * x_most / 2, upwards = cos * slope_x - most, left = 2 * cos - std::abs(turn) * x_most;
-      if (!(upwards >= 0 && left > cos)) return both;
-      const S bend_y = first * w2 * w2 + last * w1 * w1 + (turn >= 0 ? upwards * turn : 2 * (slope_x + most) * turn / left);
+      const S most = more * s2 + std::abs(bend_xy) * y_most, least_slope = cos * slope_x - most, most_slope = slope_x + most;
+      const S per_square = std::abs(turn) / (whole + std::sqrt(std::max(S(0), whole * whole - bent * bent))), x_circle = std::min(x_most, per_square * y_most * y_most);
+      const auto rise = [&](S x) { return x * (least_slope + bend_x * x / 2); };
+      const bool upwards = slope_x >= 0 && least_slope >= 0 && (turn >= 0 ? rise(x_most) >= rise(x_circle) : rise(x_most) >= 0 && most_slope >= bend_x * x_circle);
+      if (!upwards) return both;
+      const S circle = turn * (turn >= 0 ? least_slope : most_slope / cos);
+      const S bend_y = first * w2 * w2 + last * w1 * w1 + circle + per_square * x_circle * std::min(S(0), bend_x + circle);
       const bool within = bend_y > 0 && slope_y <= bend_y * y_most;
       return std::max(both, height_ + (within ? -slope_y * slope_y / (2 * bend_y) : bend_y * y_most * y_most / 2 - slope_y * y_most));
     }

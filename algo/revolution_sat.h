@@ -55,6 +55,8 @@ struct Revolved {
   S sharpest() const { return ellipse() ? std::min(across, along) * (std::min(across, along) / std::max(across, along)) : S(0); }  ///< the least radius of its curve
   /// The same in another frame.
   Revolved placed(const Matrix<3, S>& rotation, const Vector<3, S>& position) const { return {rotation * axis, rotation * middle + position, top, bottom, half, across, along}; }
+  /// Of all points x the points -x.
+  Revolved reversed() const { return {-axis, -middle, top, bottom, half, across, along}; }
   /// With the axis the other way round.
   Revolved turned() const { return {-axis, middle, bottom, top, half, across, along}; }
 };

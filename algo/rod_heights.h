@@ -28,49 +28,104 @@
 
 namespace gjkdbg {
 
+/// A rod's two discs, and the fold between them.
+template <class S>
+struct BentRod {
+  using V = Vector<3, S>;
+
+  Revolved<S> shape;
+  BentBody<3, S> disc;   ///< of radius 1, across the rod's axis
+  S fold_sin, fold_cos;  ///< of how far the fold is above the plane across the axis
+
+  static BentRod of(const Revolved<S>& rod) {
+    const V e = rod.axis.unitOrthogonal();
+    BentBody<3, S> disc{};
+    disc.inverse << e.transpose(), rod.axis.cross(e).transpose(), rod.axis.transpose();
+    disc.squares = {1, 1, 0}, disc.greatest = 1;
+    const S rise = 2 * rod.half, taper = rod.bottom - rod.top, side = std::hypot(rise, taper);
+    return {rod, disc, side > 0 ? taper / side : S(0), side > 0 ? rise / side : S(1)};
+  }
+
+  bool folds() const { return shape.half > 0 || shape.top != shape.bottom; }
+  S radius(int end) const { return end == 0 ? shape.bottom : shape.top; }
+  V middle(int end) const { return shape.middle + (end == 0 ? -shape.half : shape.half) * shape.axis; }
+  /// Of the fold's circle, at d on it: across d and the circle, towards the axis.
+  V above_fold(const V& d) const { return (shape.axis - fold_sin * d) / fold_cos; }
+  /// The end on whose side of the fold that is.
+  int end_above(const V& n) const { return n.dot(shape.axis) > fold_sin ? 1 : 0; }
+  /// How far along the axis directions are at most on the side of that end: of the spherical polygon with these corners, a mean of them over its length, which is no less than one's part along d.
+  template <std::size_t corners>
+  S farthest_rise(int end, const std::array<V, corners>& ends, const V& d) const {
+    const S sign = end == 0 ? S(-1) : S(1);
+    S rise = -1, ahead = 1;
+    for (const V& n : ends) rise = std::max(rise, sign * n.dot(shape.axis)), ahead = std::min(ahead, d.dot(n));
+    if (rise > 0) rise = ahead > rise ? rise / ahead : S(1);
+    return sign * rise;
+  }
+  V on_fold(const V& n) const {
+    const V across = n - shape.axis * shape.axis.dot(n);
+    if (is_zero(across)) return n;  // as far from all of it
+    return (fold_cos * across.stableNormalized() + fold_sin * shape.axis).normalized();
+  }
+
+  /// Where a direction is of it.
+  struct Seen {
+    V outwards = V::Zero();  ///< unit, across the axis, where the discs are round: not next to the axis
+    bool round = false, on_face = false, on_fold = false;
+  };
+  Seen along(const V& d) const {
+    constexpr S rounding = 4 * std::numeric_limits<S>::epsilon();
+    const S rise = d.dot(shape.axis);
+    V across = d - rise * shape.axis;
+    across -= shape.axis * shape.axis.dot(across);  // next to the axis, of what rounding left of it
+    const S length = across.norm();
+    const bool round = length > S(1) / 1024;
+    return {round ? V(across / length) : V(V::Zero()), round, d == shape.axis || d == -shape.axis, folds() && std::abs(rise * fold_cos - length * fold_sin) <= rounding};
+  }
+  /// Of an end, what is farthest along d; next to the axis the point with which the slope vanishes, or that is nearest to it, `rest` the other body's.
+  V point(int end, const Seen& seen, const V& rest) const {
+    if (seen.round) return middle(end) + radius(end) * seen.outwards;
+    const V all = rest + middle(end);
+    return middle(end) + held(-(all - shape.axis * shape.axis.dot(all)), radius(end));
+  }
+  /// Of a disc between the ends.
+  BentBody<3, S> bends(S radius, const Seen& seen) const {
+    BentBody<3, S> bent = disc;
+    bent.greatest = seen.round ? radius : S(0);
+    return bent;
+  }
+
+ private:
+  static V held(const V& x, S most) {
+    const S length = x.norm();
+    return length > most ? V(x * (most / length)) : x;
+  }
+};
+
 /// Heights about a direction, of the pair's whole difference; unit, in body 0's frame.
 template <class S>
 class RodHeights {
   using V = Vector<3, S>;
 
  public:
-  /// Of A - B, with what is said of B turned about the origin.
-  struct Bodies {
-    BentBody<3, S> ellipsoid, disc;  ///< the disc, of radius 1, is across the rod's axis
-    Revolved<S> rod;
-    S fold_sin, fold_cos;  ///< of how far the fold is above the plane across the axis
-
-    bool folds() const { return rod.half > 0 || rod.top != rod.bottom; }
-    S radius(int end) const { return end == 0 ? rod.bottom : rod.top; }
-    V middle(int end) const { return rod.middle + (end == 0 ? -rod.half : rod.half) * rod.axis; }
-  };
-
   RodHeights() = default;
-  /// `w`: A - B's support along the unit direction d; `other`: the ellipsoid's part of it.
-  RodHeights(const Bodies& bodies, const V& d, const V& w, const V& other) : bodies_(&bodies), d_(d), other_(other), height_(d.dot(w)) {
-    const S rise = d.dot(bodies.rod.axis);
-    const V across = d - rise * bodies.rod.axis;
-    const S length = across.norm();
-    round_ = length > S(1) / 1024, on_face_ = d == bodies.rod.axis || d == -bodies.rod.axis;
+  /// Of A - B, with what is said of B turned about the origin. `w`: its support along the unit direction d; `other`: the other body's part of it, which bends so.
+  RodHeights(const BentRod<S>& rod, const BentBody<3, S>& bends, const V& d, const V& w, const V& other) : rod_(&rod), bends_(bends), d_(d), other_(other), height_(d.dot(w)), seen_(rod.along(d)) {
     for (int i = 0; i < 2; ++i) {
-      V& p = ends_[at(i)] = other + bodies.middle(i);
-      if (round_) p += bodies.radius(i) / length * across;
-      else p += held(-(p - bodies.rod.axis * bodies.rod.axis.dot(p)), bodies.radius(i));
-      models_[at(i)] = model(p, bodies.radius(i));
+      ends_[at(i)] = other + rod.point(i, seen_, other);
+      models_[at(i)] = model(ends_[at(i)], rod.radius(i));
     }
     higher_ = models_[1].height() > models_[0].height() ? 1 : 0;
-    support_ = round_ || on_face_ ? ends_[at(higher_)] : w;
-    if (!bodies.folds()) return;
-    constexpr S rounding = 4 * std::numeric_limits<S>::epsilon();
-    on_fold_ = std::abs(rise - bodies.fold_sin) <= rounding;
+    support_ = seen_.round || seen_.on_face ? ends_[at(higher_)] : w;
+    if (!rod.folds()) return;
     const V step = ends_[at(1 - higher_)] - ends_[at(higher_)], beside = step - d * d.dot(step), slope = ends_[at(higher_)] - d * d.dot(ends_[at(higher_)]);
     const S share = -slope.dot(beside) / beside.squaredNorm();
     if (!(share > 0)) return;
     between_ = share < 1;
     const S k = std::min(share, S(1));
     const V mean = ends_[at(higher_)] + k * step;
-    if (between_ && on_fold_) support_ = mean;
-    mean_ = model(mean, bodies.radius(higher_) + k * (bodies.radius(1 - higher_) - bodies.radius(higher_)));
+    if (between_ && seen_.on_fold) support_ = mean;
+    mean_ = model(mean, rod.radius(higher_) + k * (rod.radius(1 - higher_) - rod.radius(higher_)));
   }
 
   const V& direction() const { return d_; }
@@ -82,17 +137,25 @@ class RodHeights {
   /// Of the corners, of less than half the sphere.
   template <std::size_t corners>
   S least_among(const std::array<V, corners>& ends) const {
+    const S least = least_on_both_sides(ends);
+    return seen_.on_fold ? std::max(least, std::min(least_on_side(0, ends), least_on_side(1, ends))) : least;
+  }
+  template <std::size_t corners>
+  S least_on_both_sides(const std::array<V, corners>& ends) const {
     S least = models_[at(higher_)].least_among(ends);
-    if (on_face_) least = std::max(least, about_face().least_above(ends, bodies_->radius(higher_)));
-    if (!bodies_->folds()) return least;
-    least = std::max(least, models_[at(1 - higher_)].least_among(ends));
-    if (between_) least = std::max(least, mean_.least_among(ends));
-    if (on_fold_) {
-      const V up = (bodies_->rod.axis - bodies_->fold_sin * d_) / bodies_->fold_cos;
-      const S turn = bodies_->fold_sin / bodies_->fold_cos;
-      least = std::max(least, std::min(models_[1].least_on_one_side(ends, up, turn), models_[0].least_on_one_side(ends, V(-up), -turn)));
-    }
-    return least;
+    if (seen_.on_face) least = std::max(least, model(other_ + rod_->middle(higher_), 0).least_above(ends, rod_->radius(higher_)));
+    if (rod_->folds()) least = std::max(least, models_[at(1 - higher_)].least_among(ends));
+    return between_ ? std::max(least, mean_.least_among(ends)) : least;
+  }
+  /// Of those on this end's side of the fold, with d on it; infinite where there are none.
+  template <std::size_t corners>
+  S least_on_side(int end, const std::array<V, corners>& ends) const {
+    const S farthest = rod_->farthest_rise(end, ends, d_), turn = rod_->fold_sin / rod_->fold_cos;
+    if (end == 0 ? farthest > rod_->fold_sin + rounding : farthest < rod_->fold_sin - rounding) return std::numeric_limits<S>::infinity();
+    const V above = rod_->above_fold(d_);
+    const auto bound = [&](const HeightModel<3, S>& model) { return end == 0 ? model.least_on_one_side(ends, V(-above), -turn) : model.least_on_one_side(ends, above, turn); };
+    const S least = bound(models_[at(end)]);
+    return rod_->radius(end) > 0 ? std::max(least, bound(about_fold(end, farthest))) : least;
   }
   template <std::size_t corners>
   S chord(const std::array<V, corners>& ends) const {
@@ -107,56 +170,57 @@ class RodHeights {
     return moved(most, [&](const HeightModel<3, S>& model) { return model.step_down(most); });
   }
 
+  /// Whether it falls all the way to d + v, as far as slope and bends say.
+  bool falls_along(const V& v) const { return (stays_on_fold() ? mean_ : models_[at(higher_)]).falls_along(v); }
+
  private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-  static V held(const V& x, S most) {
-    const S length = x.norm();
-    return length > most ? V(x * (most / length)) : x;
-  }
-  HeightModel<3, S> model(const V& p, S radius) const {
-    BentBody<3, S> disc = bodies_->disc;
-    disc.greatest = round_ ? radius : S(0);
-    return HeightModel<3, S>({bodies_->ellipsoid, disc}, d_, p);
-  }
-  /// d is its normal.
-  HeightModel<3, S> about_face() const { return model(other_ + bodies_->middle(higher_), 0); }
-  /// The end on whose side of the fold that is.
-  int end_above(const V& n) const { return n.dot(bodies_->rod.axis) > bodies_->fold_sin ? 1 : 0; }
-  V on_fold(const V& n) const {
-    const V& axis = bodies_->rod.axis;
-    const V across = n - axis * axis.dot(n);
-    if (is_zero(across)) return n;  // as far from all of it
-    return (bodies_->fold_cos * across.stableNormalized() + bodies_->fold_sin * axis).normalized();
+  bool stays_on_fold() const { return seen_.on_fold && between_; }
+  HeightModel<3, S> model(const V& p, S radius) const { return HeightModel<3, S>({bends_, rod_->bends(radius, seen_)}, d_, p); }
+  /// Of a ball and a point, no higher than that end as far along the axis as this.
+  HeightModel<3, S> about_fold(int end, S farthest) const {
+    const S radius = rod_->radius(end), towards = radius * (rod_->fold_sin + farthest) / (rod_->fold_cos + std::sqrt(std::max(S(0), 1 - farthest * farthest)));
+    BentBody<3, S> ball{Matrix<3, S>::Identity()};
+    ball.squares.setOnes(), ball.greatest = ball.ball = std::max(S(0), radius * rod_->fold_cos + towards * rod_->fold_sin);
+    return HeightModel<3, S>({bends_, ball}, d_, other_ + rod_->middle(end) - towards * rod_->shape.axis + ball.greatest * d_);
   }
   template <class Step>
   V moved(S most, const Step& step) const {
     const HeightModel<3, S>& model = models_[at(higher_)];
-    const V& axis = bodies_->rod.axis;
-    const V face = d_.dot(axis) > 0 ? axis : V(-axis), fold = bodies_->folds() ? on_fold(d_) : d_;
+    const V& axis = rod_->shape.axis;
+    const V face = d_.dot(axis) > 0 ? axis : V(-axis), fold = rod_->folds() ? rod_->on_fold(d_) : d_;
     const auto leads_to = [&](const V& there) { return (there - d_).norm() <= most && model.falls_along(there - d_); };
-    if (round_ && leads_to(face)) return face;
+    if (seen_.round && leads_to(face)) return face;
     const V n = step(model);
-    if (!bodies_->folds() || (!(on_fold_ && between_) && end_above(n) == higher_ && !leads_to(fold))) return n;
-    if (on_fold_ && !between_)
-      if (const V other = step(models_[at(1 - higher_)]); end_above(other) != higher_) return other;
-    return on_fold(between_ ? step(mean_) : n);
+    if (!rod_->folds() || (!stays_on_fold() && rod_->end_above(n) == higher_ && !leads_to(fold))) return n;
+    if (seen_.on_fold && !between_)
+      if (const V other = step(models_[at(1 - higher_)]); rod_->end_above(other) != higher_) return other;
+    return rod_->on_fold(between_ ? step(mean_) : n);
   }
 
-  const Bodies* bodies_ = nullptr;
+  static constexpr S rounding = 4 * std::numeric_limits<S>::epsilon();
+  const BentRod<S>* rod_ = nullptr;
+  BentBody<3, S> bends_;  ///< the other body's
   V d_, other_, support_;
   S height_ = 0;
+  typename BentRod<S>::Seen seen_;
   std::array<V, 2> ends_;  ///< the support of A - B with the rod's bottom, its top alone
   std::array<HeightModel<3, S>, 2> models_;
   HeightModel<3, S> mean_;  ///< of a disc between them
   int higher_ = 0;
-  bool round_ = false, on_face_ = false, on_fold_ = false, between_ = false;
+  bool between_ = false;
 };
+
+/// Whether a body is the hull of two discs across its axis.
+template <class S>
+bool is_rod(const std::optional<Revolved<S>>& body) { return body && !body->ellipse() && !is_zero(body->axis); }
 
 /// An ellipsoid and a rod, in body 0's frame.
 template <class S>
 struct RodPair {
   using Model = RodHeights<S>;
-  typename Model::Bodies bodies;
+  BentBody<3, S> ellipsoid;
+  BentRod<S> rod;
   bool rod_is_b;
 
   /// Unset where they are not, or the ellipsoid is too flat for its bends to be told.
@@ -165,20 +229,19 @@ struct RodPair {
     if constexpr (Difference::D == 3 && requires { difference.a().core(), difference.b().core(); }) {
       const auto a = revolved<S>(difference.a().core()), b = revolved<S>(difference.b().core());
       const Matrix<3, S> none = Matrix<3, S>::Identity();
-      if (b && is_rod(*b))
+      if (is_rod(b))
         if (const auto round = BentPair<3, S>::bent(difference.a().core(), none); round && round->greatest > 0) {
-          const Revolved<S> rod = b->placed(difference.rotation(), difference.position());
-          return RodPair{of_bodies(*round, {-rod.axis, -rod.middle, rod.top, rod.bottom, rod.half}), true};
+          return RodPair{*round, BentRod<S>::of(b->placed(difference.rotation(), difference.position()).reversed()), true};
         }
-      if (a && is_rod(*a))
-        if (const auto round = BentPair<3, S>::bent(difference.b().core(), difference.rotation()); round && round->greatest > 0) return RodPair{of_bodies(*round, *a), false};
+      if (is_rod(a))
+        if (const auto round = BentPair<3, S>::bent(difference.b().core(), difference.rotation()); round && round->greatest > 0) return RodPair{*round, BentRod<S>::of(*a), false};
     }
     return std::nullopt;
   }
 
   template <class Point>
   Model model(const Vector<3, S>& d, const Point& point) const {
-    return Model(bodies, d, point.w, rod_is_b ? Vector<3, S>(point.a) : Vector<3, S>(-point.b));
+    return Model(rod, ellipsoid, d, point.w, rod_is_b ? Vector<3, S>(point.a) : Vector<3, S>(-point.b));
   }
   /// Of A and B, that are apart along d as far as anything of them is.
   template <class Point>
@@ -187,24 +250,6 @@ struct RodPair {
     if (rod_is_b) return {point.a, point.a - w};
     return {point.b + w, point.b};
   }
-
- private:
-  static bool is_rod(const Revolved<S>& body) { return !body.ellipse() && !is_zero(body.axis); }
-  static typename Model::Bodies of_bodies(const BentBody<3, S>& ellipsoid, const Revolved<S>& rod) {
-    const Vector<3, S> e = rod.axis.unitOrthogonal();
-    BentBody<3, S> disc{};
-    disc.inverse << e.transpose(), rod.axis.cross(e).transpose(), rod.axis.transpose();
-    disc.squares = {1, 1, 0}, disc.greatest = 1;
-    const S rise = 2 * rod.half, taper = rod.bottom - rod.top, side = std::hypot(rise, taper);
-    return {ellipsoid, disc, rod, side > 0 ? taper / side : S(0), side > 0 ? rise / side : S(1)};
-  }
 };
-
-/// Whether the bends tell how deep they are: an ellipsoid with another, with a ball, or with a rod.
-template <class Difference>
-bool has_bends(const Difference& difference) {
-  using S = typename Difference::S;
-  return BentPair<Difference::D, S>::of(difference) || RodPair<S>::of(difference);
-}
 
 }  // namespace gjkdbg

@@ -30,24 +30,29 @@ double default_tolerance(const Scene& scene, const Settings& s) {
   return round ? 1e-10 : 1e-12;
 }
 
-/// Corners of a shape's core, no fewer than it has; 0 where it is curved.
+/// Corners of a shape's core, no fewer than it has; of a sum's parts that have some; 0 where it is curved.
 double corner_count(const Shape& shape, int dimension) {
-  if (const Sum* sum = std::get_if<Sum>(&shape.geometry)) return corner_count(*sum->first, dimension) * corner_count(*sum->second, dimension);
+  if (const Sum* sum = std::get_if<Sum>(&shape.geometry)) {
+    const double first = corner_count(*sum->first, dimension), second = corner_count(*sum->second, dimension);
+    return first > 0 && second > 0 ? first * second : std::max(first, second);
+  }
   if (const PointSet* set = std::get_if<PointSet>(&shape.geometry)) return static_cast<double>(set->points.size());
   return curved(shape) ? 0 : std::holds_alternative<Sphere>(shape.geometry) ? 1 : std::ldexp(1.0, dimension);
 }
 
 /// Polytopes are solved in finitely many steps, and who has given no limit has these: EPA comes to a vertex of the difference for each corner of the
 /// bodies at least where all its faces are about as near (prisms of many sides about one axis, geodesic balls with one centre): up to 1.2 steps a corner
-/// of both were seen, and four are room enough. No more than take a second; a curved pair never comes to an end so.
+/// of both were seen, and four are room enough. Where the other body is curved it comes back to each of these sides, until it has gone around the curve there: up to 45 steps a corner were seen, of prisms and
+/// spheroids about one axis. No more than take a second; two that are curved never come to an end so.
 int default_iterations(const Scene& scene, const Settings& s) {
   double most = 0, second = 0;
+  bool round = false;
   for (const Body& body : scene.bodies) {
     const double corners = corner_count(body.shape, scene.dimension);
-    if (corners == 0) return s.max_iterations;
+    round = round || corners == 0;
     second = std::max(second, std::min(most, corners)), most = std::max(most, corners);
   }
-  return static_cast<int>(std::clamp(4 * (most + second), static_cast<double>(s.max_iterations), 65536.0));
+  return static_cast<int>(std::clamp((round ? 128 : 4) * (most + second), static_cast<double>(s.max_iterations), 65536.0));
 }
 
 [[noreturn]] void refuse(const std::string& message, const char* where) { throw Error("unsupported-method", message, where); }

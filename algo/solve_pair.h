@@ -148,7 +148,7 @@ class PairSolver {
     Lent<EpaWorkspace<D, S>> workspace;  // looked up where EPA runs, and only there
     const EpaResult<D, S> found = epa(difference_, gjk_.simplex, options, *workspace, trace_);
     result_->iterations += found.iterations;
-    if (!outline && found.status == EpaStatus::iteration_limit && outline_decides(depth_by_bends(difference_, tolerance, settings_.max_iterations, trace_))) return;
+    if (found.status == EpaStatus::iteration_limit && outline_decides(depth_by_bends(difference_, tolerance, settings_.max_iterations, outline.has_value(), trace_))) return;
     result_->status = found.status, set_bounds(-found.upper_bound, -found.lower_bound);
     const bool flat = found.face < 0;
     if (flat && gjk_.status == GjkStatus::enclosed) weigh_enclosing(gjk_.simplex);

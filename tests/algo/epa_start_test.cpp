@@ -106,5 +106,24 @@ TEST(EpaLimit, ManySidesAboutOneAxisAreFinite) {
   }
 }
 
+/// So are the corners of a round hull about what is nearly a ball, though that has none.
+TEST(EpaLimit, ARoundHullAboutAnEllipsoidIsFinite) {
+  Scene scene;
+  scene.query = Query::penetration;
+  constexpr int corners = 1500;
+  PointSet round{PointSetKind::hull, {}, {}};
+  for (int i = 0; i < corners; ++i) {
+    const double height = (2 * i + 1.0) / corners - 1, across = std::sqrt(1 - height * height), angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    round.points.push_back(Eigen::Vector3d(across * std::cos(angle), across * std::sin(angle), height));
+  }
+  scene.bodies = {{"A", {round, 0}, identity_pose(3)}, {"B", {Ellipsoid{AnyVector(Eigen::Vector3d(0.7, 0.71, 0.6999))}, 0}, identity_pose(3)}};
+  Method method;
+  const Result r = solve(scene, resolve_settings(method, scene));
+  EXPECT_EQ(r.status, "converged");
+  EXPECT_LE(*r.upper_bound - *r.lower_bound, 2e-10);
+  method.max_iterations = 512;
+  EXPECT_EQ(solve(scene, resolve_settings(method, scene)).status, "iteration_limit");
+}
+
 }  // namespace
 }  // namespace gjkdbg

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
-#include <string>
+#include <utility>
 
 #include "algo/rod_heights.h"
 #include "algo/solve.h"
@@ -15,61 +14,31 @@
 #include "tests/support/has_event.h"
 #include "tests/support/heights.h"
 #include "tests/support/random_scenes.h"
+#include "tests/support/rod_scenes.h"
 
 namespace gjkdbg {
 namespace {
 
 using V3 = Eigen::Vector3d;
 
-enum class RodKind { cylinder, cone, capsule, segment, disc };
-
-/// An ellipsoid, which k and chance choose, and a rod, the one or the other first.
-class RodScenes {
- public:
-  explicit RodScenes(int seed) : random_(static_cast<unsigned>(seed)) {}
-  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  V3 direction() {
-    std::normal_distribution<double> normal;
-    V3 x;
-    for (double& part : x) part = normal(random_);
-    return x.normalized();
-  }
-
-  Scene pair(int k, const V3& radii, RodKind kind, double away, double tilt) {
-    const double radius = uniform(0.2, 1), half = std::pow(10, uniform(-3, 0.3));
-    Scene scene;
-    scene.dimension = 3, scene.query = Query::penetration;
-    Body round{"round", {}, identity_pose(3)}, rod{"rod", {}, identity_pose(3)};
-    round.shape.geometry = Ellipsoid{AnyVector(radii)};
-    if (kind == RodKind::cylinder) rod.shape.geometry = Cylinder{radius, half, 2};
-    else if (kind == RodKind::cone) rod.shape.geometry = Cone{radius, half, 2};
-    else if (kind == RodKind::capsule) rod.shape.geometry = Capsule{radius, half, 2};
-    else if (kind == RodKind::segment) rod.shape.geometry = PointSet{PointSetKind::segment, {V3(0, 0, -half), V3(0, 0, half)}, ""};
-    else rod.shape.geometry = Ellipsoid{AnyVector(V3(radius, radius, 0))};
-    if (k % 7 == 2) round.shape.margin = 0.1;
-    // Turned by the tilt out of the ellipsoid's third axis, both together turned in any way.
-    const V3 way = direction(), across(way[1], -way[0], 0);
-    const Eigen::Matrix3d all = Eigen::AngleAxisd(uniform(0, 6), direction()).toRotationMatrix();
-    place(round, all, V3::Zero()), place(rod, all * Eigen::AngleAxisd(tilt, across.normalized()).toRotationMatrix(), away * direction());
-    const bool rod_first = k % 2 == 0;
-    scene.bodies = rod_first ? std::vector<Body>{rod, round} : std::vector<Body>{round, rod};
-    return scene;
-  }
-
- private:
-  static void place(Body& body, const Eigen::Matrix3d& rotation, const V3& position) { body.pose.matrix = rotation, body.pose.rotation = RotationMatrix{rotation}, body.pose.position = position; }
-
-  std::mt19937_64 random_;
-};
+/// An ellipsoid, and a rod, the one or the other first.
+Scene ellipsoid_and_rod(RodScenes& random, int k, const V3& radii, RodKind kind, double away, double tilt) {
+  const double radius = random.uniform(0.2, 1), half = std::pow(10, random.uniform(-3, 0.3));
+  Body round = RodScenes::ellipsoid(radii), rod = RodScenes::rod(kind, radius, half);
+  if (k % 7 == 2) round.shape.margin = 0.1;
+  Scene scene = random.pair(std::move(round), std::move(rod), away, tilt);
+  if (k % 2 == 0) std::swap(scene.bodies[0], scene.bodies[1]);
+  return scene;
+}
 
 /// About directions anywhere, along the rod's axis or nearly, and on the fold.
 V3 special(RodScenes& random, const RodPair<double>& pair, int i) {
-  const auto& bodies = pair.bodies;
-  const V3 d = random.direction(), axis = bodies.rod.axis, across = (d - axis * axis.dot(d)).normalized();
+  const auto& rod = pair.rod;
+  const V3 d = random.direction(), axis = rod.shape.axis, across = (d - axis * axis.dot(d)).normalized();
   if (i % 5 == 1) return axis * (d[0] > 0 ? 1 : -1);
   if (i % 5 == 2) return (axis + std::pow(10, random.uniform(-5, -1)) * across).normalized();
   if (i % 5 < 2) return d;
-  return (bodies.fold_cos * across + (bodies.fold_sin + (i % 5 == 4 ? std::pow(10, random.uniform(-5, -1)) : 0)) * axis).normalized();
+  return (rod.fold_cos * across + (rod.fold_sin + (i % 5 == 4 ? std::pow(10, random.uniform(-5, -1)) : 0)) * axis).normalized();
 }
 
 TEST(RodHeights, NoHeightIsBelowIt) {
@@ -78,7 +47,7 @@ TEST(RodHeights, NoHeightIsBelowIt) {
     V3 radii;
     for (double& r : radii) r = std::pow(10, random.uniform(-1, 0));
     const double away = k % 4 == 0 ? 0 : random.uniform(0, 1), tilt = random.uniform(0, 3);
-    const Scene scene = random.pair(k, radii, static_cast<RodKind>(k % 5), away, tilt);
+    const Scene scene = ellipsoid_and_rod(random, k, radii, static_cast<RodKind>(k % 5), away, tilt);
     const Convex<3, double> a(scene.bodies[0].shape, 1), b(scene.bodies[1].shape, 1);
     MinkowskiDifference<3, double, Convex<3, double>> difference(a, b, scene.bodies[0].pose, scene.bodies[1].pose, 1);
     const auto pair = RodPair<double>::of(difference);
@@ -107,13 +76,13 @@ TEST(RodHeights, NoHeightIsBelowIt) {
 TEST(RodHeights, LoseNothingAcrossTheFold) {
   RodScenes random(2);
   for (const RodKind kind : {RodKind::cylinder, RodKind::capsule, RodKind::segment}) {
-    const Scene scene = random.pair(1, V3(0.8, 0.8, 0.7), kind, 0, 0);
+    const Scene scene = ellipsoid_and_rod(random, 1, V3(0.8, 0.8, 0.7), kind, 0, 0);
     const Convex<3, double> a(scene.bodies[0].shape, 1), b(scene.bodies[1].shape, 1);
     MinkowskiDifference<3, double, Convex<3, double>> difference(a, b, scene.bodies[0].pose, scene.bodies[1].pose, 1);
     const auto pair = RodPair<double>::of(difference);
     ASSERT_TRUE(pair);
-    const V3 axis = pair->bodies.rod.axis, d = axis.unitOrthogonal(), beside = axis.cross(d);
-    const double half = std::min(0.05, pair->bodies.rod.half);
+    const V3 axis = pair->rod.shape.axis, d = axis.unitOrthogonal(), beside = axis.cross(d);
+    const double half = std::min(0.05, pair->rod.shape.half);
     const std::array<V3, 4> corners{(d + half * axis + 0.2 * beside).normalized(), (d + half * axis - 0.2 * beside).normalized(), (d - half * axis + 0.2 * beside).normalized(), (d - half * axis - 0.2 * beside).normalized()};
     const auto heights = pair->model(d, difference.support(d));
     EXPECT_NEAR(heights.least_among(corners), heights.height(), 1e-13);
@@ -125,7 +94,7 @@ TEST(RodHeights, LoseNothingAcrossTheFold) {
 Scene in_nearly_a_spheroid(RodScenes& random, int k) {
   const double waist = random.uniform(0.3, 1.5), unlike = k % 4 == 0 ? 0 : std::pow(10, random.uniform(-4, -1));
   const double away = k % 2 == 0 ? 0 : std::pow(10, random.uniform(-6, -1)), tilt = k % 3 == 0 ? 0 : std::pow(10, random.uniform(-6, -0.3));
-  return random.pair(k, V3(waist, waist * (1 + unlike), random.uniform(0.3, 2)), static_cast<RodKind>(k % 5), away, tilt);
+  return ellipsoid_and_rod(random, k, V3(waist, waist * (1 + unlike), random.uniform(0.3, 2)), static_cast<RodKind>(k % 5), away, tilt);
 }
 
 TEST(RodHeights, TellTheDepthOfWhatEpaGaveUpOn) {

@@ -1,0 +1,151 @@
+// What is said of the heights of two rods: that none is below it, along many directions; and the depths that come of it, of rods of which one is next to flat.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "algo/solve.h"
+#include "algo/two_rods.h"
+#include "recordings/check.h"
+#include "recordings/check_context.h"
+#include "recordings/recording.h"
+#include "tests/support/heights.h"
+#include "tests/support/random_scenes.h"
+#include "tests/support/rod_scenes.h"
+
+namespace gjkdbg {
+namespace {
+
+using Rod3 = Eigen::Vector3d;
+
+/// Where both folds cross, on one of them, along an axis, or near any of these.
+Rod3 about_folds(RodScenes& random, const TwoRods<double>& pair, int i) {
+  const Rod3 d = random.direction(), off = i % 2 == 0 ? Rod3(Rod3::Zero()) : Rod3(std::pow(10, random.uniform(-6, -1)) * random.direction());
+  const auto& [first, second] = pair.rods;
+  if (i % 10 < 3) {
+    Rod3 crossing = first.on_fold(d);
+    for (int k = 0; k < 60; ++k) crossing = first.on_fold(second.on_fold(crossing));
+    return (crossing + off).normalized();
+  }
+  if (i % 10 < 5) return (first.on_fold(d) + off).normalized();
+  if (i % 10 < 7) return (second.on_fold(d) + off).normalized();
+  return i % 10 == 7 ? (first.shape.axis + off).normalized() : i % 10 == 8 ? (off - second.shape.axis).normalized() : d;
+}
+
+TEST(TwoRodHeights, NoHeightIsBelowIt) {
+  RodScenes random(11);
+  int both = 0;
+  for (int k = 0; k < pairs_asked(1500); ++k) {
+    const auto rod = [&](int kind) {
+      const double radius = std::pow(10, random.uniform(-1, 0)), half = std::pow(10, random.uniform(-3, 0.3));
+      return RodScenes::rod(static_cast<RodKind>(kind % 5), radius, half);
+    };
+    Body first = rod(k), second = rod(k / 5);
+    const double away = k % 4 == 0 ? 0 : random.uniform(0, 1), tilt = k % 3 == 0 ? std::pow(10, random.uniform(-9, 0)) : random.uniform(0, 3);
+    const Scene scene = random.pair(std::move(first), std::move(second), away, tilt);
+    const Convex<3, double> a(scene.bodies[0].shape, 1), b(scene.bodies[1].shape, 1);
+    MinkowskiDifference<3, double, Convex<3, double>> difference(a, b, scene.bodies[0].pose, scene.bodies[1].pose, 1);
+    const auto pair = TwoRods<double>::of(difference);
+    ASSERT_TRUE(pair) << k;
+    for (int i = 0; i < 20; ++i) {
+      const Rod3 d = about_folds(random, *pair, i);
+      if (pair->rods[0].along(d).on_fold && pair->rods[1].along(d).on_fold) ++both;
+      const auto point = difference.support(d);
+      const auto heights = pair->model(d, point);
+      EXPECT_EQ(heights.height(), d.dot(point.w));
+      EXPECT_NEAR(d.dot(heights.support()), heights.height(), 1e-14);
+      EXPECT_LE((heights.points()[0] + heights.points()[1] - heights.support()).norm(), 1e-14);
+      std::array<Rod3, 4> corners;
+      const Rod3 about = i % 6 == 0 ? random.direction() : d;
+      const double size = std::pow(10, random.uniform(-3, -0.01));
+      for (Rod3& corner : corners) corner = (about + size * random.uniform(0, 1) * random.direction()).normalized();
+      const double least = heights.least_among(corners);
+      for (int j = 0; j < 20; ++j) {
+        Rod3 within = Rod3::Zero();
+        for (const Rod3& corner : corners) within += random.uniform(0, 1) * corner;
+        const Rod3 n = within.normalized();
+        EXPECT_LE(least, n.dot(difference.support(n).w) + 1e-13) << k << ", " << i;
+      }
+    }
+  }
+  EXPECT_GT(both, pairs_asked(500));
+}
+
+/// A flat one within a long one, or the other way round, tilted by as little: along the crossing of their folds nothing is lost, all around the directions in which the height hardly rises.
+TEST(TwoRodHeights, LoseNothingWhereTheFoldsCross) {
+  RodScenes random(12);
+  for (const double tilt : {1e-6, 1e-3, 0.3}) {
+    const Scene scene = random.pair(RodScenes::rod(RodKind::cylinder, 1.2, 1.4), RodScenes::rod(RodKind::capsule, 0.25, 1e-3), 0, tilt);
+    const Convex<3, double> a(scene.bodies[0].shape, 1), b(scene.bodies[1].shape, 1);
+    MinkowskiDifference<3, double, Convex<3, double>> difference(a, b, scene.bodies[0].pose, scene.bodies[1].pose, 1);
+    const auto pair = TwoRods<double>::of(difference);
+    ASSERT_TRUE(pair);
+    const Rod3 axis = pair->rods[0].shape.axis, d = axis.cross(pair->rods[1].shape.axis).normalized(), beside = axis.cross(d);
+    std::array<Rod3, 4> corners;
+    for (std::size_t k = 0; k < 4; ++k) corners[k] = (d + (k < 2 ? 0.2 : -0.2) * axis + (k % 2 == 0 ? 0.3 : -0.3) * beside).normalized();
+    const auto heights = pair->model(d, difference.support(d));
+    EXPECT_NEAR(heights.height(), 1.2, 1e-12) << tilt;
+    EXPECT_NEAR(heights.least_among(corners), heights.height(), 1e-13) << tilt;
+    EXPECT_NEAR(heights.slope(), 0, 1e-9) << tilt;
+  }
+}
+
+/// A rod in or beside another, one of them next to flat, tilted by as little: of such, sections left a few open, and EPA most.
+Scene one_next_to_flat(RodScenes& random, int k) {
+  const auto rod = [&](int kind, double half) { return RodScenes::rod(static_cast<RodKind>(kind % 5), random.uniform(0.2, 2), half); };
+  const double long_half = random.uniform(0.3, 3), flat_half = std::pow(10, random.uniform(-4, -1.5));
+  Body first = rod(k % 4, long_half), second = rod(k / 4, flat_half);
+  const double away = k % 3 == 0 ? 0 : std::pow(10, random.uniform(-7, -1)), tilt = std::pow(10, random.uniform(-4, -0.5));
+  Scene scene = random.pair(std::move(first), std::move(second), away, tilt);
+  if (k % 2 == 0) std::swap(scene.bodies[0], scene.bodies[1]);
+  return scene;
+}
+
+/// By sections or EPA, all of them; by the bends alone, whatever they tell, and most are proven.
+TEST(TwoRods, TellTheDepthOfOneThatIsNextToFlat) {
+  RodScenes random(13);
+  int proven = 0;
+  for (int k = 0; k < pairs_asked(160); ++k) {
+    SceneFile file;
+    file.scene = one_next_to_flat(random, k);
+    const Result r = record(file).result;
+    if (!(*r.signed_distance < 0)) continue;
+    EXPECT_NE(r.status, StatusWord("iteration_limit")) << k;
+    const Convex<3, double> a(file.scene.bodies[0].shape, 1), b(file.scene.bodies[1].shape, 1);
+    MinkowskiDifference<3, double, Convex<3, double>> difference(a, b, file.scene.bodies[0].pose, file.scene.bodies[1].pose, 1);
+    const auto pair = TwoRods<double>::of(difference);
+    ASSERT_TRUE(pair) << k;
+    NoTrace none;
+    const auto found = ellipsoid_depth(difference, *pair, 1e-10, 512, none);
+    const double depth = found.sat.depth + difference.radius();
+    EXPECT_GE(depth, -*r.upper_bound - 1e-13) << k;
+    EXPECT_LE(depth - found.slack, -*r.lower_bound + 1e-13) << k;
+    proven += found.sat.status == SatStatus::overlapping;
+    if (!found.points || found.sat.status != SatStatus::overlapping) continue;
+    EXPECT_NEAR((found.points->a - found.points->b - found.sat.depth * found.sat.normal).norm(), 0, 1e-9) << k;
+  }
+  EXPECT_GT(proven, pairs_asked(90));
+}
+
+/// Pairs that sections had left open, by as much as this, when their supports ran out.
+TEST(TwoRods, TellWhatSectionsLeaveOpen) {
+  struct Pair {
+    RodKind long_kind, flat_kind;
+    double radius, half, flat_radius, flat_half, tilt, away, open;
+  };
+  for (const Pair& p : {Pair{RodKind::capsule, RodKind::cylinder, 0.893, 2.44, 0.5326, 1.94e-3, 3.211e-5, 0, 2e-5}, Pair{RodKind::cylinder, RodKind::cylinder, 1.7124, 2.417, 0.53555, 2.967e-3, 5.697e-4, 1.05e-4, 4e-5},
+                        Pair{RodKind::capsule, RodKind::cylinder, 0.657, 2.875, 1.3095, 1e-9, 1.477e-4, 2e-7, 1e-4}, Pair{RodKind::cylinder, RodKind::capsule, 1.2338, 1.3969, 0.2546, 8.563e-4, 5.299e-3, 0, 1e-4}}) {
+    RodScenes random(14);
+    SceneFile file;
+    file.scene = random.pair(RodScenes::rod(p.long_kind, p.radius, p.half), RodScenes::rod(p.flat_kind, p.flat_radius, p.flat_half), p.away, p.tilt);
+    const Recording run = record(file);
+    EXPECT_EQ(run.result.status, StatusWord("overlapping"));
+    EXPECT_LE(*run.result.upper_bound - *run.result.lower_bound, 2e-10 * -*run.result.signed_distance);
+    EXPECT_LE(outside(file.scene, std::size_t{0}, *run.result.witness_a) + outside(file.scene, std::size_t{1}, *run.result.witness_b), 1e-9);
+    EXPECT_TRUE(check(run).empty());
+    std::printf("calls %d open %g\n", run.result.support_calls, p.open);
+  }
+}
+
+}  // namespace
+}  // namespace gjkdbg
