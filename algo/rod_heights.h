@@ -12,6 +12,12 @@
 //
 //   sin(s) (x / q) cos(a) >= sin(a) (1 - cos(s)),  so  x cos(s / 2) >= tan(a) q^2 / 2
 //
+// The nearer to the axis, the more a disc's bend changes along the fold. But its height, r sqrt(1 - z^2) with z = n . axis, is concave in z: from the fold's z0 to z1, the farthest that is asked for, no lower than
+//
+//   c - k z,   k = r (z0 + z1) / (sqrt(1 - z0^2) + sqrt(1 - z1^2)),   c = r sqrt(1 - z0^2) + k z0
+//
+// which is a ball's of radius c about the point -k axis, and bends alike everywhere: a bound that is exact all along the fold.
+//
 // Next to the axis a disc bends without bound, and all of it is as far along the axis itself: there a point of the disc is taken, the one where the slope vanishes, if there is one.
 #pragma once
 

@@ -52,7 +52,7 @@ int default_iterations(const Scene& scene, const Settings& s) {
     round = round || corners == 0;
     second = std::max(second, std::min(most, corners)), most = std::max(most, corners);
   }
-  return static_cast<int>(std::clamp((round ? 128 : 4) * (most + second), static_cast<double>(s.max_iterations), 65536.0));
+  return static_cast<int>(std::clamp((round ? 64 : 4) * (most + second), static_cast<double>(s.max_iterations), 65536.0));
 }
 
 [[noreturn]] void refuse(const std::string& message, const char* where) { throw Error("unsupported-method", message, where); }

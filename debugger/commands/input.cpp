@@ -128,7 +128,7 @@ void MethodFlags::add_to(CLI::App& app) {
   app.add_option("--start", start_, "where GJK begins")->check(named_in(start_names))->group(group);
   app.add_option("--start_from,--start-from", start_from_, "recording with whose last simplex GJK begins")->check(named())->group(group);
   app.add_option("--tolerance", tolerance_, "relative gap of the bounds at which to stop; greater than 0 and less than 1")->check(between(0, 1))->group(group);
-  app.add_option("--max_iterations,--max-iterations", max_iterations_, "of each phase (512)")->check(between(1, 1000000))->group(group);
+  app.add_option("--max_iterations,--max-iterations", max_iterations_, "of each phase (512, and more for polytopes of many corners)")->check(between(1, 1000000))->group(group);
   app.add_option("--initial_direction,--initial-direction", initial_direction_, "first search direction, e.g. 1,0,0")->delimiter(',')->allow_extra_args(false)->group(group);  // or a scene's name after it is taken for a number
 }
 

@@ -2,6 +2,7 @@
 // libccd's stacked cubes, van den Bergen's "identical shapes". Each exact answer is a closed form of the rounded input.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "debugger/lab/atlas.h"
 #include "shapes/error.h"
@@ -97,12 +98,25 @@ void overlaps(std::vector<AtlasFamily>& out, bool quick) {
   AtlasFamily rod{"C8", "a cylinder on the axis of what is nearly a spheroid: along its side a whole circle of directions is nearly as near", {}};
   for (const double unlike : powers(1e-12, 1, quick))  // across, both are thinnest along x
     rod.cases.push_back({unlike, pair(ellipsoid(vec(0.75, 0.75 * (1 + unlike), 1.5), vec(0, 0, 0)), {"", {Cylinder{0.5, 1, 2}, 0}, identity_pose(3)}), -1.25});
+  AtlasFamily flat{"C9", "a cylinder next to flat within a capsule, tilted: all around the way out is hardly longer", {}};
+  for (const double tilt : powers(1e-12, 1, quick)) {  // about x: the way out is along that, or where the flat one leans over most; between them its height is concave
+    const double leant = 0.5 * std::cos(tilt) + std::sin(tilt) / 512;
+    flat.cases.push_back({tilt, pair({"", {Capsule{1, 2.5, 2}, 0}, identity_pose(3)}, {"", {Cylinder{0.5, 1.0 / 512, 2}, 0}, identity_pose(3)}), -1 - std::min(0.5, leant)});
+    flat.cases.back().scene.bodies[1].pose.matrix = Eigen::AngleAxisd(tilt, vec(1, 0, 0)).toRotationMatrix();
+  }
+  AtlasFamily sides{"C10", "a prism of many sides about a cylinder: through each of the sides the way out is as short", {}};
+  for (int count = 4; count <= (quick ? 16 : 256); count *= 2) {
+    PointSet prism{PointSetKind::hull, {}, {}};
+    for (int i = 0; i < count; ++i)
+      for (const double z : {-2.0, 2.0}) prism.points.push_back(vec(std::cos(2 * std::numbers::pi * i / count), std::sin(2 * std::numbers::pi * i / count), z));
+    sides.cases.push_back({static_cast<double>(count), pair({"", {prism, 0}, identity_pose(3)}, {"", {Cylinder{0.5, 1, 2}, 0}, identity_pose(3)}), -0.5 - std::cos(std::numbers::pi / count)});
+  }
   AtlasFamily shallow{"E1", "stacked boxes, a little deep: the origin lies on a face of the first tetrahedron and the contact is dropped", {}};
   for (const double d : powers(1e-14, 1e-1, quick)) {
     const double z = 0.4 - d;
     shallow.cases.push_back({d, pair(cube(vec(0, 0, 0), 0.2), cube(vec(0, 0, z), 0.2)), z - 0.4});
   }
-  out.push_back(stacked), out.push_back(same), out.push_back(spheres), out.push_back(deep), out.push_back(ring), out.push_back(tilted), out.push_back(rod), out.push_back(shallow);
+  out.push_back(stacked), out.push_back(same), out.push_back(spheres), out.push_back(deep), out.push_back(ring), out.push_back(tilted), out.push_back(rod), out.push_back(flat), out.push_back(sides), out.push_back(shallow);
 }
 
 /// Triangles tip to tip in the plane, wedges edge to edge in space.

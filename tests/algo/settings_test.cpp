@@ -57,6 +57,8 @@ TEST(Settings, TheRestIsGjkWithEpaAndItsLimitGrowsWithTheCorners) {
   };
   EXPECT_EQ(settings_of(corners(64), corners(64)).max_iterations, 512);
   EXPECT_EQ(settings_of(corners(150), corners(50)).max_iterations, 800);
+  EXPECT_EQ(settings_of(corners(150), cone).max_iterations, 64 * 150);
+  EXPECT_EQ(settings_of(cone, cone).max_iterations, 512);
 }
 
 }  // namespace
