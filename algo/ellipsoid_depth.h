@@ -53,26 +53,35 @@ class DirectionSquares {
     }
   };
 
-  DirectionSquares() { heap_.reserve(room); }
-  void clear() { heap_.clear(); }
+  DirectionSquares() { squares_.reserve(room), heap_.reserve(room), left_.reserve(room); }
+  void clear() { squares_.clear(), heap_.clear(), left_.clear(); }
   bool empty() const { return heap_.empty(); }
   bool full() const { return heap_.size() + 2 > room; }
   S least() const { return heap_.front().least; }
   void push(const Square& square) {
-    heap_.push_back(square);
+    std::size_t at = squares_.size();
+    if (left_.empty()) squares_.push_back(square);
+    else at = left_.back(), left_.pop_back(), squares_[at] = square;
+    heap_.push_back({square.least, at});
     std::push_heap(heap_.begin(), heap_.end(), higher);
   }
   Square take_least() {
     std::pop_heap(heap_.begin(), heap_.end(), higher);
-    const Square taken = heap_.back();
-    heap_.pop_back();
-    return taken;
+    const std::size_t at = heap_.back().at;
+    heap_.pop_back(), left_.push_back(at);
+    return squares_[at];
   }
 
  private:
   static constexpr std::size_t room = 1024;
-  static bool higher(const Square& x, const Square& y) { return x.least > y.least; }
-  std::vector<Square> heap_;
+  struct Place {
+    S least;
+    std::size_t at;
+  };
+  static bool higher(const Place& x, const Place& y) { return x.least > y.least; }
+  std::vector<Square> squares_;
+  std::vector<Place> heap_;
+  std::vector<std::size_t> left_;  ///< places of squares that are taken
 };
 
 /// Whether EPA, with so many steps, had a fair chance before its directions are divided: who asks for fewer wants to know how far it comes.

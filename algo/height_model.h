@@ -33,19 +33,41 @@
 
 namespace gjkdbg {
 
-/// How a body bends: an ellipsoid, by its squared radii in parts of the greatest, so that no power of a small one vanishes. A point bends nowhere: zeros.
+/// How a body bends: an ellipsoid, by its squared radii in parts of the greatest, so that no power of a small one vanishes.
 template <int D, class S>
 struct BentBody {
   Matrix<D, S> inverse;  ///< takes directions to its axes
-  Vector<D, S> squares = Vector<D, S>::Zero();
-  S greatest = 0;  ///< radius
-  S ball = 0;      ///< radius of the largest ball that rolls within it: of its sharpest bend
+  Vector<D, S> squares;
+  S greatest;  ///< radius; of a point 0
+  S ball;      ///< radius of the largest ball that rolls within it, of its sharpest bend; in parts of the greatest
 
   /// `axes`: of an ellipsoid.
   static BentBody of(const EllipsoidCore<D, S>& ellipsoid, const Matrix<D, S>& axes) {
-    const S greatest = ellipsoid.radii.maxCoeff(), least = ellipsoid.radii.minCoeff();
-    return {axes.transpose(), (ellipsoid.radii / greatest).cwiseAbs2(), greatest, least * (least / greatest)};
+    const S greatest = ellipsoid.radii.maxCoeff(), least = ellipsoid.radii.minCoeff() / greatest;
+    return {axes.transpose(), (ellipsoid.radii / greatest).cwiseAbs2(), greatest, least * least};
   }
+  static BentBody point() { return {Matrix<D, S>::Identity(), Vector<D, S>::Zero(), 0, 0}; }
+  static BentBody unit_ball() { return {Matrix<D, S>::Identity(), Vector<D, S>::Ones(), 1, 1}; }
+
+  /// What of it is farthest along d.
+  Vector<D, S> support(const Vector<D, S>& d) const {
+    const Vector<D, S> n = inverse * d, along = squares.cwiseProduct(n);
+    return inverse.transpose() * along * (greatest / std::sqrt(n.dot(along)));
+  }
+};
+
+/// Bodies whose sum it is that bends, each of any size. Keeps pointers.
+template <int D, class S>
+struct BentBodies {
+  static constexpr int most = 10;
+  struct Sized {
+    const BentBody<D, S>* body;
+    S greatest;
+  };
+  std::array<Sized, most> list{};
+  int count = 0;
+
+  void add(const BentBody<D, S>& body, S greatest) { list[static_cast<std::size_t>(count++)] = {&body, greatest}; }
 };
 
 template <int D, class S>
@@ -58,7 +80,11 @@ struct BentPair {
   std::array<BentBody<D, S>, 2> bodies;
 
   template <class Point>
-  Model model(const Vector<D, S>& d, const Point& point) const { return Model(bodies, d, point.w); }
+  Model model(const Vector<D, S>& d, const Point& point) const {
+    BentBodies<D, S> bent;
+    for (const BentBody<D, S>& body : bodies) bent.add(body, body.greatest);
+    return Model(bent, d, point.w);
+  }
   template <class Point>
   SatWitnesses<D, S> witnesses(const Model&, const Point& point) const { return {point.a, point.b}; }
 
@@ -75,7 +101,7 @@ struct BentPair {
   /// Unset as above.
   template <class Core>
   static std::optional<BentBody<D, S>> bent(const Core& core, const Matrix<D, S>& axes) {
-    if (std::holds_alternative<PointCore<D, S>>(core)) return BentBody<D, S>{axes};
+    if (std::holds_alternative<PointCore<D, S>>(core)) return BentBody<D, S>::point();
     const auto* ellipsoid = std::get_if<EllipsoidCore<D, S>>(&core);
     if (!ellipsoid || !(ellipsoid->radii.minCoeff() * 1024 > ellipsoid->radii.maxCoeff())) return std::nullopt;
     return BentBody<D, S>::of(*ellipsoid, axes);
@@ -91,18 +117,21 @@ class HeightModel {
  public:
   HeightModel() = default;
   /// `w`: A - B's support along the unit direction d.
-  HeightModel(const std::array<BentBody<D, S>, 2>& bodies, const V& d, const V& w) : d_(d), height_(d.dot(w)), ball_(bodies[0].ball + bodies[1].ball) {
-    std::array<Bends, 2> bends;
+  HeightModel(const BentBodies<D, S>& bodies, const V& d, const V& w) : d_(d), height_(d.dot(w)) {
+    std::array<Bends, BentBodies<D, S>::most> bends;
     if constexpr (D == 3) {
       const V e = d.unitOrthogonal(), f = d.cross(e);
       axes_ = {e, f};
     } else {
       axes_ = {V(-d[1], d[0])};
     }
-    for (std::size_t k = 0; k < 2; ++k) bends[k] = of_body(bodies[k]);
-    if constexpr (D == 3) turn(bends);
+    for (int k = 0; k < bodies.count; ++k) {
+      const auto& [body, greatest] = bodies.list[at(k)];
+      bends[at(k)] = of_body(*body, greatest), ball_ += body->ball * greatest;
+    }
+    if constexpr (D == 3) turn(bends, bodies.count);
     for (int i = 0; i < across; ++i) slope_[at(i)] = axes_[at(i)].dot(w), bend_[at(i)] = -height_;
-    for (const Bends& b : bends) take(b);
+    for (int k = 0; k < bodies.count; ++k) take(bends[at(k)]);
   }
 
   const V& direction() const { return d_; }
@@ -176,15 +205,15 @@ class HeightModel {
 
   /// What no height is below on one side of a circle of directions through d: with x the part of u along `way`, unit, across d and the circle, those with x cos(s / 2) >= turn q^2 / 2.
   ///
-  /// With y the part of u along the circle, b x's own bend, all terms of the bound that have x in them come to x (g_x cos(s / 2) + e) + b x^2 / 2, |e| <= N: what of the higher terms counts as |u2|, and the mixed
-  /// bend. With c the least cos(s / 2), they are no less than f(x) = (c g_x - N) x + b x^2 / 2 for x >= 0, (g_x + N) x + b x^2 / 2 for x <= 0, and
+  /// With y the part of u along the circle, X = x cos(s / 2), c the least cos(s / 2), all terms of the bound that have x in them come to g_x X + e x + b x^2 / 2, |e| <= N: what of the higher terms counts as |u2|,
+  /// and the mixed bend; b is x's own. They are no less than f(X) = (g_x - N / c) X + B X^2 / 2 for X >= 0, (g_x + N / c) X + B X^2 / 2 for X <= 0, B = b, or b / c^2 where that is below zero, and
   ///
-  ///   x >= x0,   x0 = turn (x0^2 + y^2) / 2             for turn >= 0
-  ///   x >= -x0,  x0 = |turn| (x0^2 + y^2) / (2 c)       otherwise, for |turn| x <= c: the other root is beyond that
+  ///   X >= x0,   x0 = turn (x0^2 + y^2) / 2                for turn >= 0
+  ///   X >= -x0,  x0 = |turn| (x0^2 / c^2 + y^2) / 2        otherwise, for |turn| X <= c^2: the other root is beyond that
   ///
-  /// with x0 = |turn| y^2 / (C + sqrt(C^2 - turn^2 y^2)), C = 1 or c, no more than k y^2, the root at y_most. Where f rises up to there, and is no less at x_most, it is least at x0, or -x0, where it comes to
+  /// with x0 = |turn| y^2 / (1 + sqrt(1 - w turn^2 y^2)), w = 1 or 1 / c^2, no more than k y^2, the root at y_most. Where f rises up to there, and is no less at x_most, it is least at x0, or -x0, where it comes to
   ///
-  ///   a y^2 / 2 + (b + a) x0^2 / 2,   a = (c g_x - N) turn,   or a = (g_x + N) turn / c
+  ///   a y^2 / 2 + (B + w a) x0^2 / 2,   a = (g_x - N / c) turn,   or a = (g_x + N / c) turn
   ///
   /// which is exact on the circle: that b and a cancel is how a circle of heights that are all the same shows. Where f leads downwards, or in the plane, the bound is that of both sides.
   template <std::size_t corners>
@@ -194,19 +223,19 @@ class HeightModel {
     if constexpr (across == 2) {
       const S q = reach.chord, q1 = reach.along[0], q2 = reach.along[across - 1], second = q * q, cos = std::sqrt(std::max(S(0), 1 - second / 4));
       const S w1 = way.dot(axes_[0]), w2 = way.dot(axes_[across - 1]), s1 = std::abs(w1), s2 = std::abs(w2);
-      const S x_most = std::min(q, q1 * s1 + q2 * s2), y_most = std::min(q, q1 * s2 + q2 * s1), bent = std::abs(turn) * y_most, whole = turn >= 0 ? S(1) : cos;
-      if (turn < 0 && !(std::max(-turn * x_most, bent) < cos)) return both;
+      const S x_most = std::min(q, q1 * s1 + q2 * s2), y_most = std::min(q, q1 * s2 + q2 * s1), wide = turn >= 0 ? S(1) : 1 / (cos * cos), bent = std::abs(turn) * y_most;
+      if (!(cos > 0) || (turn < 0 && !(std::max(-turn * x_most, bent) < cos * cos))) return both;
       const S more = q1 * q1 / 6 * std::abs(cubic_[1]) + 2 * second * q1 * mixed_;  // of |u2|
       const S first = bend_[0] - q1 / 3 * std::abs(cubic_[0]) - 2 * second * quartic_[0], last = bend_[across - 1] - (q1 * std::abs(cubic_[2]) + q2 * std::abs(cubic_[3])) / 3 - 2 * second * quartic_[across - 1];
-      const S bend_x = first * w1 * w1 + last * w2 * w2, bend_xy = (last - first) * w1 * w2;
+      const S own = first * w1 * w1 + last * w2 * w2, bend_x = own >= 0 ? own : own / (cos * cos), bend_xy = (last - first) * w1 * w2;
       const S slope_x = slope_[0] * w1 + slope_[across - 1] * w2, slope_y = std::abs(slope_[across - 1] * w1 - slope_[0] * w2) + more * s1;
-      const S most = more * s2 + std::abs(bend_xy) * y_most, least_slope = cos * slope_x - most, most_slope = slope_x + most;
-      const S per_square = std::abs(turn) / (whole + std::sqrt(std::max(S(0), whole * whole - bent * bent))), x_circle = std::min(x_most, per_square * y_most * y_most);
+      const S most = (more * s2 + std::abs(bend_xy) * y_most) / cos, least_slope = slope_x - most, most_slope = slope_x + most;
+      const S per_square = std::abs(turn) / (1 + std::sqrt(std::max(S(0), 1 - wide * bent * bent))), x_circle = std::min(x_most, per_square * y_most * y_most);
       const auto rise = [&](S x) { return x * (least_slope + bend_x * x / 2); };
-      const bool upwards = slope_x >= 0 && least_slope >= 0 && (turn >= 0 ? rise(x_most) >= rise(x_circle) : rise(x_most) >= 0 && most_slope >= bend_x * x_circle);
+      const bool upwards = least_slope >= 0 && (turn >= 0 ? rise(x_most) >= rise(x_circle) : rise(x_most) >= 0 && most_slope >= bend_x * x_circle);
       if (!upwards) return both;
-      const S circle = turn * (turn >= 0 ? least_slope : most_slope / cos);
-      const S bend_y = first * w2 * w2 + last * w1 * w1 + circle + per_square * x_circle * std::min(S(0), bend_x + circle);
+      const S circle = turn * (turn >= 0 ? least_slope : most_slope);
+      const S bend_y = first * w2 * w2 + last * w1 * w1 + circle + per_square * x_circle * std::min(S(0), bend_x + wide * circle);
       const bool within = bend_y > 0 && slope_y <= bend_y * y_most;
       return std::max(both, height_ + (within ? -slope_y * slope_y / (2 * bend_y) : bend_y * y_most * y_most / 2 - slope_y * y_most));
     }
@@ -262,7 +291,7 @@ class HeightModel {
 
   /// Of a body, over the axes: T; m and X in parts of h^2.
   struct Bends {
-    S t11 = 0, t12 = 0, t22 = 0, m1 = 0, m2 = 0, x11 = 0, x12 = 0, x22 = 0;
+    S t11, t12, t22, m1, m2, x11, x12, x22;
     /// In the axes cos e1 + sin e2, cos e2 - sin e1.
     void turn(S cos, S sin) {
       const auto matrix = [&](S& a, S& b, S& c) {
@@ -275,11 +304,11 @@ class HeightModel {
     }
   };
 
-  Bends of_body(const BentBody<D, S>& body) const {
-    Bends b;
-    if (!(body.greatest > 0)) return b;
+  Bends of_body(const BentBody<D, S>& body, S greatest) const {
+    Bends b{};
+    if (!(greatest > 0)) return b;
     const V d = body.inverse * d_, e = body.inverse * axes_[0], md = body.squares.cwiseProduct(d), me = body.squares.cwiseProduct(e);
-    const S square = d.dot(md), scale = body.greatest / (square * std::sqrt(square));
+    const S square = d.dot(md), scale = greatest / (square * std::sqrt(square));
     b.m1 = e.dot(md) / square, b.x11 = e.dot(me) / square - 1;
     if constexpr (D == 3) {
       const V f = body.inverse * axes_[1], adjugate(body.squares[1] * body.squares[2], body.squares[2] * body.squares[0], body.squares[0] * body.squares[1]);
@@ -293,13 +322,15 @@ class HeightModel {
   }
 
   /// To the axes in which T is diagonal, the least bend first.
-  void turn(std::array<Bends, 2>& bends) {
-    const S half = (bends[0].t22 + bends[1].t22 - bends[0].t11 - bends[1].t11) / 2, mixed = -(bends[0].t12 + bends[1].t12), length = std::hypot(half, mixed);
+  void turn(std::array<Bends, BentBodies<D, S>::most>& bends, int count) {
+    Bends sum{};
+    for (int k = 0; k < count; ++k) sum.t11 += bends[at(k)].t11, sum.t12 += bends[at(k)].t12, sum.t22 += bends[at(k)].t22;
+    const S half = (sum.t22 - sum.t11) / 2, mixed = -sum.t12, length = std::hypot(half, mixed);
     if (!(length > 0)) return;
     // The least lies at an angle a to e1 where cos(2a) = half / length, sin(2a) = mixed / length.
     S cos = std::sqrt((1 + std::abs(half) / length) / 2), sin = mixed / (2 * length * cos);
     if (half < 0) std::swap(cos, sin);
-    for (Bends& b : bends) b.turn(cos, sin);
+    for (int k = 0; k < count; ++k) bends[at(k)].turn(cos, sin);
     const V e = cos * axes_[0] + sin * axes_[1];
     axes_[across - 1] = cos * axes_[across - 1] - sin * axes_[0], axes_[0] = e;
   }

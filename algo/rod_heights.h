@@ -1,4 +1,4 @@
-// What the height of A - B is like about a direction, where one body is an ellipsoid and the other a rod: a cylinder, a cone, a disc, a segment (a capsule's core).
+// What the height of A - B is like about a direction, where one of what it is a sum of is a rod: a cylinder, a cone, a disc, a segment (a capsule's core), and the rest bends as ellipsoids do.
 //
 // A rod is the hull of two discs across one axis, of radii that may be zero. Its height is the greater of theirs, and a disc is an ellipsoid without height, whose bends algo/height_model.h knows. The
 // discs are as high as each other along a circle of directions about the axis, those of the rod's side: there is a fold, and A - B's nearest points are often on it, all along the side. About a direction d
@@ -45,12 +45,20 @@ struct BentRod {
 
   static BentRod of(const Revolved<S>& rod) {
     const V e = rod.axis.unitOrthogonal();
-    BentBody<3, S> disc{};
+    BentBody<3, S> disc = BentBody<3, S>::point();
     disc.inverse << e.transpose(), rod.axis.cross(e).transpose(), rod.axis.transpose();
     disc.squares = {1, 1, 0}, disc.greatest = 1;
     const S rise = 2 * rod.half, taper = rod.bottom - rod.top, side = std::hypot(rise, taper);
     return {rod, disc, side > 0 ? taper / side : S(0), side > 0 ? rise / side : S(1)};
   }
+
+  /// With the disc of a rod about the same axis, in whichever direction: both ends are larger by it.
+  BentRod with_disc(const V& middle, S radius) const {
+    BentRod sum = *this;
+    sum.shape.middle += middle, sum.shape.top += radius, sum.shape.bottom += radius;
+    return sum;
+  }
+  bool parallel_to(const BentRod& other) const { return shape.axis.cross(other.shape.axis).norm() <= 4 * std::numeric_limits<S>::epsilon(); }
 
   bool folds() const { return shape.half > 0 || shape.top != shape.bottom; }
   S radius(int end) const { return end == 0 ? shape.bottom : shape.top; }
@@ -94,11 +102,9 @@ struct BentRod {
     const V all = rest + middle(end);
     return middle(end) + held(-(all - shape.axis * shape.axis.dot(all)), radius(end));
   }
-  /// Of a disc between the ends.
-  BentBody<3, S> bends(S radius, const Seen& seen) const {
-    BentBody<3, S> bent = disc;
-    bent.greatest = seen.round ? radius : S(0);
-    return bent;
+  /// What a disc between the ends bends by: nothing next to the axis, where it bends without bound.
+  void add_disc(BentBodies<3, S>& bends, S radius, const Seen& seen) const {
+    if (seen.round) bends.add(disc, radius);
   }
 
  private:
@@ -115,8 +121,8 @@ class RodHeights {
 
  public:
   RodHeights() = default;
-  /// Of A - B, with what is said of B turned about the origin. `w`: its support along the unit direction d; `other`: the other body's part of it, which bends so.
-  RodHeights(const BentRod<S>& rod, const BentBody<3, S>& bends, const V& d, const V& w, const V& other) : rod_(&rod), bends_(bends), d_(d), other_(other), height_(d.dot(w)), seen_(rod.along(d)) {
+  /// Of A - B. `w`: its support along the unit direction d; `other`: all but the rod's part of it, which bends so. Keeps pointers to what bends.
+  RodHeights(const BentRod<S>& rod, const BentBodies<3, S>& bends, const V& d, const V& w, const V& other) : rod_(rod), bends_(bends), d_(d), other_(other), height_(d.dot(w)), seen_(rod.along(d)) {
     for (int i = 0; i < 2; ++i) {
       ends_[at(i)] = other + rod.point(i, seen_, other);
       models_[at(i)] = model(ends_[at(i)], rod.radius(i));
@@ -149,19 +155,19 @@ class RodHeights {
   template <std::size_t corners>
   S least_on_both_sides(const std::array<V, corners>& ends) const {
     S least = models_[at(higher_)].least_among(ends);
-    if (seen_.on_face) least = std::max(least, model(other_ + rod_->middle(higher_), 0).least_above(ends, rod_->radius(higher_)));
-    if (rod_->folds()) least = std::max(least, models_[at(1 - higher_)].least_among(ends));
+    if (seen_.on_face) least = std::max(least, model(other_ + rod_.middle(higher_), 0).least_above(ends, rod_.radius(higher_)));
+    if (rod_.folds()) least = std::max(least, models_[at(1 - higher_)].least_among(ends));
     return between_ ? std::max(least, mean_.least_among(ends)) : least;
   }
   /// Of those on this end's side of the fold, with d on it; infinite where there are none.
   template <std::size_t corners>
   S least_on_side(int end, const std::array<V, corners>& ends) const {
-    const S farthest = rod_->farthest_rise(end, ends, d_), turn = rod_->fold_sin / rod_->fold_cos;
-    if (end == 0 ? farthest > rod_->fold_sin + rounding : farthest < rod_->fold_sin - rounding) return std::numeric_limits<S>::infinity();
-    const V above = rod_->above_fold(d_);
+    const S farthest = rod_.farthest_rise(end, ends, d_), turn = rod_.fold_sin / rod_.fold_cos;
+    if (end == 0 ? farthest > rod_.fold_sin + rounding : farthest < rod_.fold_sin - rounding) return std::numeric_limits<S>::infinity();
+    const V above = rod_.above_fold(d_);
     const auto bound = [&](const HeightModel<3, S>& model) { return end == 0 ? model.least_on_one_side(ends, V(-above), -turn) : model.least_on_one_side(ends, above, turn); };
     const S least = bound(models_[at(end)]);
-    return rod_->radius(end) > 0 ? std::max(least, bound(about_fold(end, farthest))) : least;
+    return rod_.radius(end) > 0 ? std::max(least, bound(about_fold(end, farthest))) : least;
   }
   template <std::size_t corners>
   S chord(const std::array<V, corners>& ends) const {
@@ -182,31 +188,37 @@ class RodHeights {
  private:
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   bool stays_on_fold() const { return seen_.on_fold && between_; }
-  HeightModel<3, S> model(const V& p, S radius) const { return HeightModel<3, S>({bends_, rod_->bends(radius, seen_)}, d_, p); }
+  HeightModel<3, S> model(const V& p, S radius) const {
+    BentBodies<3, S> all = bends_;
+    rod_.add_disc(all, radius, seen_);
+    return HeightModel<3, S>(all, d_, p);
+  }
   /// Of a ball and a point, no higher than that end as far along the axis as this.
   HeightModel<3, S> about_fold(int end, S farthest) const {
-    const S radius = rod_->radius(end), towards = radius * (rod_->fold_sin + farthest) / (rod_->fold_cos + std::sqrt(std::max(S(0), 1 - farthest * farthest)));
-    BentBody<3, S> ball{Matrix<3, S>::Identity()};
-    ball.squares.setOnes(), ball.greatest = ball.ball = std::max(S(0), radius * rod_->fold_cos + towards * rod_->fold_sin);
-    return HeightModel<3, S>({bends_, ball}, d_, other_ + rod_->middle(end) - towards * rod_->shape.axis + ball.greatest * d_);
+    const S radius = rod_.radius(end), towards = radius * (rod_.fold_sin + farthest) / (rod_.fold_cos + std::sqrt(std::max(S(0), 1 - farthest * farthest)));
+    const S ball = std::max(S(0), radius * rod_.fold_cos + towards * rod_.fold_sin);
+    BentBodies<3, S> all = bends_;
+    static const BentBody<3, S> unit_ball = BentBody<3, S>::unit_ball();
+    all.add(unit_ball, ball);
+    return HeightModel<3, S>(all, d_, other_ + rod_.middle(end) - towards * rod_.shape.axis + ball * d_);
   }
   template <class Step>
   V moved(S most, const Step& step) const {
     const HeightModel<3, S>& model = models_[at(higher_)];
-    const V& axis = rod_->shape.axis;
-    const V face = d_.dot(axis) > 0 ? axis : V(-axis), fold = rod_->folds() ? rod_->on_fold(d_) : d_;
+    const V& axis = rod_.shape.axis;
+    const V face = d_.dot(axis) > 0 ? axis : V(-axis), fold = rod_.folds() ? rod_.on_fold(d_) : d_;
     const auto leads_to = [&](const V& there) { return (there - d_).norm() <= most && model.falls_along(there - d_); };
     if (seen_.round && leads_to(face)) return face;
     const V n = step(model);
-    if (!rod_->folds() || (!stays_on_fold() && rod_->end_above(n) == higher_ && !leads_to(fold))) return n;
+    if (!rod_.folds() || (!stays_on_fold() && rod_.end_above(n) == higher_ && !leads_to(fold))) return n;
     if (seen_.on_fold && !between_)
-      if (const V other = step(models_[at(1 - higher_)]); rod_->end_above(other) != higher_) return other;
-    return rod_->on_fold(between_ ? step(mean_) : n);
+      if (const V other = step(models_[at(1 - higher_)]); rod_.end_above(other) != higher_) return other;
+    return rod_.on_fold(between_ ? step(mean_) : n);
   }
 
   static constexpr S rounding = 4 * std::numeric_limits<S>::epsilon();
-  const BentRod<S>* rod_ = nullptr;
-  BentBody<3, S> bends_;  ///< the other body's
+  BentRod<S> rod_;
+  BentBodies<3, S> bends_;  ///< of all but the rod
   V d_, other_, support_;
   S height_ = 0;
   typename BentRod<S>::Seen seen_;
@@ -215,47 +227,6 @@ class RodHeights {
   HeightModel<3, S> mean_;  ///< of a disc between them
   int higher_ = 0;
   bool between_ = false;
-};
-
-/// Whether a body is the hull of two discs across its axis.
-template <class S>
-bool is_rod(const std::optional<Revolved<S>>& body) { return body && !body->ellipse() && !is_zero(body->axis); }
-
-/// An ellipsoid and a rod, in body 0's frame.
-template <class S>
-struct RodPair {
-  using Model = RodHeights<S>;
-  BentBody<3, S> ellipsoid;
-  BentRod<S> rod;
-  bool rod_is_b;
-
-  /// Unset where they are not, or the ellipsoid is too flat for its bends to be told.
-  template <class Difference>
-  static std::optional<RodPair> of(const Difference& difference) {
-    if constexpr (Difference::D == 3 && requires { difference.a().core(), difference.b().core(); }) {
-      const auto a = revolved<S>(difference.a().core()), b = revolved<S>(difference.b().core());
-      const Matrix<3, S> none = Matrix<3, S>::Identity();
-      if (is_rod(b))
-        if (const auto round = BentPair<3, S>::bent(difference.a().core(), none); round && round->greatest > 0) {
-          return RodPair{*round, BentRod<S>::of(b->placed(difference.rotation(), difference.position()).reversed()), true};
-        }
-      if (is_rod(a))
-        if (const auto round = BentPair<3, S>::bent(difference.b().core(), difference.rotation()); round && round->greatest > 0) return RodPair{*round, BentRod<S>::of(*a), false};
-    }
-    return std::nullopt;
-  }
-
-  template <class Point>
-  Model model(const Vector<3, S>& d, const Point& point) const {
-    return Model(rod, ellipsoid, d, point.w, rod_is_b ? Vector<3, S>(point.a) : Vector<3, S>(-point.b));
-  }
-  /// Of A and B, that are apart along d as far as anything of them is.
-  template <class Point>
-  SatWitnesses<3, S> witnesses(const Model& model, const Point& point) const {
-    const Vector<3, S>& w = model.support();
-    if (rod_is_b) return {point.a, point.a - w};
-    return {point.b + w, point.b};
-  }
 };
 
 }  // namespace gjkdbg

@@ -34,7 +34,6 @@
 #include "algo/ellipsoid_depth.h"
 #include "algo/outline_arcs.h"
 #include "algo/revolution_sat.h"
-#include "algo/rod_heights.h"
 
 namespace gjkdbg {
 
@@ -171,7 +170,7 @@ class TiltedAxes {
   SatResult<3, S> result_;
 };
 
-/// Unset where they are none, or their axes too far from one another for it to be worth while. What sections leave open of an ellipsoid and a rod their bends may tell. Witness points are the caller's to find
+/// Unset where they are none, or their axes too far from one another for it to be worth while. Witness points are the caller's to find
 /// where there are none. `most`: see TiltedAxes::run.
 template <class Difference, class Trace>
 std::optional<OutlineDepth<3, typename Difference::S>> tilted_axes(Difference& difference, typename Difference::S tolerance, int most, Trace& trace) {
@@ -182,8 +181,7 @@ std::optional<OutlineDepth<3, typename Difference::S>> tilted_axes(Difference& d
   if constexpr (traced<Trace>) trace(SatBegan<V, Viewed>{0, 0, 0});
   TiltedAxes<Difference, Trace> outline(difference, *pair, trace);
   const SatResult<3, S> by_sections = outline.run(tolerance, most);
-  OutlineDepth<3, S> found{by_sections, std::nullopt, outline.slack()};
-  go_on_by_bends(difference, RodPair<S>::of(difference), found, tolerance, most, trace);
+  const OutlineDepth<3, S> found{by_sections, std::nullopt, outline.slack()};
   if constexpr (traced<Trace>) trace(SatEnded<V, Viewed>{found.sat.iterations, found.sat.status, found.sat.normal, -static_cast<double>(found.sat.depth) - static_cast<double>(difference.radius())});
   return found;
 }

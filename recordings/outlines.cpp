@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
+#include "algo/bent_sum.h"
 #include "algo/minkowski_difference.h"
 #include "algo/revolution_sat.h"
 #include "algo/rolling_balls.h"
 #include "algo/tilted_spheroids.h"
-#include "algo/two_rods.h"
 #include "algo/working_scale.h"
 
 namespace gjkdbg {

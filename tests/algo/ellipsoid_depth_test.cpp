@@ -59,7 +59,7 @@ void expect_no_height_below(BentScenes& random, const Scene& scene) {
   ASSERT_TRUE(pair);
   for (int i = 0; i < 20; ++i) {
     const Vector<D, double> d = random.direction(D);
-    const HeightModel<D, double> model(pair->bodies, d, difference.support(d).w);
+    const HeightModel<D, double> model = pair->model(d, difference.support(d));
     for (int k = 0; k < 20; ++k) {
       const Vector<D, double> n = (d + std::pow(10, random.uniform(-3, 1)) * random.direction(D)).normalized();
       EXPECT_LE(model.least_within(model.reach((n - d).norm())), n.dot(difference.support(n).w) + 1e-13);
@@ -103,7 +103,7 @@ TEST(HeightModel, LosesNothingWhereTheHeightIsLeast) {
   const Convex<3, double> body(scene.bodies[0].shape, 1);
   MinkowskiDifference<3, double, Convex<3, double>> difference(body, body, scene.bodies[0].pose, scene.bodies[1].pose, 1);
   const Eigen::Vector3d d = Eigen::Vector3d::UnitZ();
-  const HeightModel<3, double> model(BentPair<3, double>::of(difference)->bodies, d, difference.support(d).w);
+  const HeightModel<3, double> model = BentPair<3, double>::of(difference)->model(d, difference.support(d));
   EXPECT_NEAR(model.height(), 1, 1e-15);
   EXPECT_NEAR(model.slope(), 0, 1e-15);
   EXPECT_NEAR(model.least_within(model.reach(0.3)), 1, 1e-15);
@@ -118,7 +118,7 @@ TEST(HeightModel, KnowsTheWholeSphere) {
   beside.position = Eigen::Vector3d(0, 0, 0.5);
   MinkowskiDifference<3, double, Convex<3, double>> difference(a, b, scene.bodies[0].pose, beside, 1);
   const Eigen::Vector3d d = Eigen::Vector3d::UnitZ();
-  const HeightModel<3, double> model(BentPair<3, double>::of(difference).value().bodies, d, difference.support(d).w);
+  const HeightModel<3, double> model = BentPair<3, double>::of(difference)->model(d, difference.support(d));
   EXPECT_EQ(model.height(), 0.9 - 0.5);
   EXPECT_EQ(model.slope(), 0);
   EXPECT_LE(model.least_within(model.reach(2.0)), 0.9 - 0.5);
@@ -130,8 +130,8 @@ TEST(HeightModel, ItsStepsLeadToTheLeastHeight) {
   const Scene scene = random.pair(3, Ellipsoid{AnyVector(Eigen::Vector3d(1, 0.8, 0.5))}, Sphere{0.1}, 0.1, 0);
   const Convex<3, double> a(scene.bodies[0].shape, 1), b(scene.bodies[1].shape, 1);
   MinkowskiDifference<3, double, Convex<3, double>> difference(a, b, scene.bodies[0].pose, scene.bodies[1].pose, 1);
-  const auto bodies = BentPair<3, double>::of(difference)->bodies;
-  const auto at = [&](const Eigen::Vector3d& n) { return HeightModel<3, double>(bodies, n, difference.support(n).w); };
+  const auto bodies = BentPair<3, double>::of(difference);
+  const auto at = [&](const Eigen::Vector3d& n) { return bodies->model(n, difference.support(n)); };
   HeightModel<3, double> model = at(Eigen::Vector3d(0.3, 0.2, scene.bodies[1].pose.position[2] > 0 ? 1 : -1).normalized());
   for (int i = 0; i < 6; ++i) model = at(model.step_down(1));
   EXPECT_LT(model.slope(), 1e-14);

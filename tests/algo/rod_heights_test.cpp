@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "algo/rod_heights.h"
+#include "algo/bent_sum.h"
 #include "algo/solve.h"
 #include "recordings/check.h"
 #include "recordings/check_context.h"
@@ -32,8 +32,8 @@ Scene ellipsoid_and_rod(RodScenes& random, int k, const V3& radii, RodKind kind,
 }
 
 /// About directions anywhere, along the rod's axis or nearly, and on the fold.
-V3 special(RodScenes& random, const RodPair<double>& pair, int i) {
-  const auto& rod = pair.rod;
+V3 special(RodScenes& random, const BentSum<double>& pair, int i) {
+  const auto& rod = pair.parts.rods[0].rod;
   const V3 d = random.direction(), axis = rod.shape.axis, across = (d - axis * axis.dot(d)).normalized();
   if (i % 5 == 1) return axis * (d[0] > 0 ? 1 : -1);
   if (i % 5 == 2) return (axis + std::pow(10, random.uniform(-5, -1)) * across).normalized();
@@ -50,7 +50,7 @@ TEST(RodHeights, NoHeightIsBelowIt) {
     const Scene scene = ellipsoid_and_rod(random, k, radii, static_cast<RodKind>(k % 5), away, tilt);
     const Convex<3, double> a(scene.bodies[0].shape, 1), b(scene.bodies[1].shape, 1);
     MinkowskiDifference<3, double, Convex<3, double>> difference(a, b, scene.bodies[0].pose, scene.bodies[1].pose, 1);
-    const auto pair = RodPair<double>::of(difference);
+    const auto pair = BentSum<double>::of(difference);
     ASSERT_TRUE(pair) << k;
     for (int i = 0; i < 20; ++i) {
       const V3 d = special(random, *pair, i);
@@ -79,10 +79,10 @@ TEST(RodHeights, LoseNothingAcrossTheFold) {
     const Scene scene = ellipsoid_and_rod(random, 1, V3(0.8, 0.8, 0.7), kind, 0, 0);
     const Convex<3, double> a(scene.bodies[0].shape, 1), b(scene.bodies[1].shape, 1);
     MinkowskiDifference<3, double, Convex<3, double>> difference(a, b, scene.bodies[0].pose, scene.bodies[1].pose, 1);
-    const auto pair = RodPair<double>::of(difference);
+    const auto pair = BentSum<double>::of(difference);
     ASSERT_TRUE(pair);
-    const V3 axis = pair->rod.shape.axis, d = axis.unitOrthogonal(), beside = axis.cross(d);
-    const double half = std::min(0.05, pair->rod.shape.half);
+    const V3 axis = pair->parts.rods[0].rod.shape.axis, d = axis.unitOrthogonal(), beside = axis.cross(d);
+    const double half = std::min(0.05, pair->parts.rods[0].rod.shape.half);
     const std::array<V3, 4> corners{(d + half * axis + 0.2 * beside).normalized(), (d + half * axis - 0.2 * beside).normalized(), (d - half * axis + 0.2 * beside).normalized(), (d - half * axis - 0.2 * beside).normalized()};
     const auto heights = pair->model(d, difference.support(d));
     EXPECT_NEAR(heights.least_among(corners), heights.height(), 1e-13);
