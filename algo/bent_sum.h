@@ -28,10 +28,11 @@ namespace gjkdbg {
 template <class S>
 struct BentParts {
   using V = Vector<3, S>;
-  static constexpr int most = 4;  ///< of each kind
+  static constexpr std::size_t most = BesideRod<S>::most;  ///< of each kind
   struct Ellipsoid {
     BentBody<3, S> body;
-    std::size_t side;  ///< 0: of A, 1: of -B
+    std::optional<Revolved<S>> spheroid;  ///< if it is one
+    std::size_t side;                     ///< 0: of A, 1: of -B
   };
   struct Rod {
     BentRod<S> rod;
@@ -46,13 +47,12 @@ struct BentParts {
   template <class Core>
   bool add(const Core& core, const Matrix<3, S>& axes, std::size_t side) {
     if (const auto* sum = std::get_if<SumCore<3, S>>(&core)) return add(sum->first->core(), axes, side) && add(sum->second->core(), axes, side);
-    if (const auto rod = revolved<S>(core); rod && !rod->ellipse()) {
-      const Revolved<S> placed = rod->placed(axes, V::Zero());
-      return add_rod(side == 1 ? placed.reversed() : placed, side);
-    }
+    std::optional<Revolved<S>> about_axis = revolved<S>(core);
+    if (about_axis) about_axis = about_axis->placed(axes, V::Zero());
+    if (about_axis && !about_axis->ellipse()) return add_rod(side == 1 ? about_axis->reversed() : *about_axis, side);
     const auto* ellipsoid = std::get_if<EllipsoidCore<3, S>>(&core);
     if (!ellipsoid || !(ellipsoid->radii.minCoeff() * 1024 > ellipsoid->radii.maxCoeff()) || ellipsoid_count == most) return false;
-    ellipsoids[ellipsoid_count++] = {BentBody<3, S>::of(*ellipsoid, axes), side};
+    ellipsoids[ellipsoid_count++] = {BentBody<3, S>::of(*ellipsoid, axes), about_axis, side};
     return true;
   }
   bool add_rod(const Revolved<S>& rod, std::size_t side) {
@@ -91,8 +91,7 @@ class SumHeights {
     }
     Points round = parts.middles;
     for (std::size_t i = 0; i < parts.ellipsoid_count; ++i) {
-      const auto& [body, side] = parts.ellipsoids[i];
-      ellipsoids_.add(body, body.greatest), round[side] += body.support(d);
+      supports_[i] = parts.ellipsoids[i].body.support(d), round[parts.ellipsoids[i].side] += supports_[i];
     }
     std::array<Disc, Parts::most> higher, lower, between;
     V rest = round[0] + round[1];
@@ -103,10 +102,10 @@ class SumHeights {
       const int end = ends_[i];
       higher[i] = Disc::at_end(rod(i), end, ends[at(end)]), lower[i] = Disc::at_end(rod(i), 1 - end, ends[at(1 - end)]), rest += higher[i].point;
     }
-    models_[0] = model(seen, round, higher), support_ = models_[0].support();
+    models_[0] = model(seen, higher), support_ = models_[0].support();
     between = higher;
     if (parts.rod_count > 1) {
-      models_[count_++] = model(seen, round, lower);
+      models_[count_++] = model(seen, lower);
       // Along the first fold; or, where d is not on it, along all that can be taken away.
       const V way = seen[main_].on_fold ? V(d.cross(rod(main_).above_fold(d))) : V(V::Zero());
       V left = support_;
@@ -120,7 +119,7 @@ class SumHeights {
         between_[i] = true, all_on_folds = all_on_folds && seen[i].on_fold;
       }
       if (std::find(between_.begin(), between_.end(), true) != between_.end()) {
-        models_[count_++] = model(seen, round, between);
+        models_[count_++] = model(seen, between);
         if (all_on_folds) stays_ = true, support_ = models_[2].support();
       }
     }
@@ -180,16 +179,25 @@ class SumHeights {
   const BentRod<S>& rod(std::size_t i) const { return parts_->rods[i].rod; }
 
   template <class Seen>
-  RodHeights<S> model(const Seen& seen, const Points& round, const Discs& discs) const {
-    BentBodies<3, S> all = ellipsoids_;
-    V other = round[0] + round[1];
+  RodHeights<S> model(const Seen& seen, const Discs& discs) const {
     BentRod<S> first = rod(main_);
+    BesideRod<S> beside;
+    beside.support_off_axis = parts_->middles[0] + parts_->middles[1];
+    V on_axis = V::Zero();
     for (std::size_t i = 0; i < parts_->rod_count; ++i) {
       if (i == main_) continue;
-      if (rod(i).parallel_to(first)) first = first.with_disc(discs[i].middle, discs[i].radius);
-      else rod(i).add_disc(all, discs[i].radius, seen[i]), other += discs[i].point;
+      if (first.about(rod(i).shape.axis)) first = first.with_disc(discs[i].middle, discs[i].radius);
+      else rod(i).add_disc(beside.bends_off_axis, discs[i].radius, seen[i]), beside.support_off_axis += discs[i].point;
     }
-    return RodHeights<S>(first, all, d_, points_[0] + points_[1], other);
+    beside.bends = beside.bends_off_axis;
+    for (std::size_t i = 0; i < parts_->ellipsoid_count; ++i) {
+      const auto& [body, spheroid, side] = parts_->ellipsoids[i];
+      beside.bends.add(body, body.greatest);
+      if (spheroid && first.about(spheroid->axis)) beside.spheroids[at(beside.count++)] = {spheroid->across * spheroid->across, spheroid->along * spheroid->along}, on_axis += supports_[i];
+      else beside.bends_off_axis.add(body, body.greatest), beside.support_off_axis += supports_[i];
+    }
+    beside.support = beside.support_off_axis + on_axis;
+    return RodHeights<S>(first, beside, d_, points_[0] + points_[1]);
   }
 
   /// How much of the step to take from p, so that along this way, or if it is zero along the step, nothing is left beside d.
@@ -238,7 +246,7 @@ class SumHeights {
   const Parts* parts_ = nullptr;
   V d_, support_;
   Points points_;
-  BentBodies<3, S> ellipsoids_;
+  std::array<V, Parts::most> supports_;  ///< of the ellipsoids
   std::array<RodHeights<S>, 3> models_;  ///< of the first rod with the others' higher ends, their lower ones, and discs between them
   std::size_t main_ = 0, count_ = 1;     ///< the first; models
   std::array<int, Parts::most> ends_{};  ///< the others' higher ones

@@ -12,11 +12,12 @@
 //
 //   sin(s) (x / q) cos(a) >= sin(a) (1 - cos(s)),  so  x cos(s / 2) >= tan(a) q^2 / 2
 //
-// The nearer to the axis, the more a disc's bend changes along the fold. But its height, r sqrt(1 - z^2) with z = n . axis, is concave in z: from the fold's z0 to z1, the farthest that is asked for, no lower than
+// The nearer to the axis, the more a disc's bend changes along the fold. But its height depends on z = n . axis alone, as that of a spheroid about the axis does, of radii a across it and c along it:
+// f = sqrt(a^2 + (c^2 - a^2) z^2), of a disc c = 0. For c < a it is concave: from the fold's z0 to z1, the farthest that is asked for, no lower than its chord; otherwise than its tangent at z0. Either way than
 //
-//   c - k z,   k = r (z0 + z1) / (sqrt(1 - z0^2) + sqrt(1 - z1^2)),   c = r sqrt(1 - z0^2) + k z0
+//   b + k z,   k = (c^2 - a^2) (z0 + z1) / (f(z0) + f(z1))   or   (c^2 - a^2) z0 / f(z0),   b = f(z0) - k z0
 //
-// which is a ball's of radius c about the point -k axis, and bends alike everywhere: a bound that is exact all along the fold.
+// which is a ball's of radius b about the point k axis, and bends alike everywhere: a bound that is exact all along the fold.
 //
 // Next to the axis a disc bends without bound, and all of it is as far along the axis itself: there a point of the disc is taken, the one where the slope vanishes, if there is one.
 #pragma once
@@ -58,7 +59,8 @@ struct BentRod {
     sum.shape.middle += middle, sum.shape.top += radius, sum.shape.bottom += radius;
     return sum;
   }
-  bool parallel_to(const BentRod& other) const { return shape.axis.cross(other.shape.axis).norm() <= 4 * std::numeric_limits<S>::epsilon(); }
+  /// Whether what is of revolution about that axis (zero: any) is so about this one.
+  bool about(const V& axis) const { return shape.axis.cross(axis).norm() <= 4 * std::numeric_limits<S>::epsilon(); }
 
   bool folds() const { return shape.half > 0 || shape.top != shape.bottom; }
   S radius(int end) const { return end == 0 ? shape.bottom : shape.top; }
@@ -114,6 +116,16 @@ struct BentRod {
   }
 };
 
+/// All but a rod, of a sum, and what of it is no spheroid about the rod's axis.
+template <class S>
+struct BesideRod {
+  static constexpr int most = 4;
+  BentBodies<3, S> bends, bends_off_axis;
+  Vector<3, S> support, support_off_axis;        ///< along the direction that is asked for
+  std::array<std::array<S, 2>, most> spheroids;  ///< their squared radii across the axis and along it
+  int count = 0;
+};
+
 /// Heights about a direction, of the pair's whole difference; unit, in body 0's frame.
 template <class S>
 class RodHeights {
@@ -121,10 +133,10 @@ class RodHeights {
 
  public:
   RodHeights() = default;
-  /// Of A - B. `w`: its support along the unit direction d; `other`: all but the rod's part of it, which bends so. Keeps pointers to what bends.
-  RodHeights(const BentRod<S>& rod, const BentBodies<3, S>& bends, const V& d, const V& w, const V& other) : rod_(rod), bends_(bends), d_(d), other_(other), height_(d.dot(w)), seen_(rod.along(d)) {
+  /// Of A - B. `w`: its support along the unit direction d. Keeps pointers to what bends.
+  RodHeights(const BentRod<S>& rod, const BesideRod<S>& others, const V& d, const V& w) : rod_(rod), beside_(others), d_(d), height_(d.dot(w)), seen_(rod.along(d)) {
     for (int i = 0; i < 2; ++i) {
-      ends_[at(i)] = other + rod.point(i, seen_, other);
+      ends_[at(i)] = others.support + rod.point(i, seen_, others.support);
       models_[at(i)] = model(ends_[at(i)], rod.radius(i));
     }
     higher_ = models_[1].height() > models_[0].height() ? 1 : 0;
@@ -155,7 +167,7 @@ class RodHeights {
   template <std::size_t corners>
   S least_on_both_sides(const std::array<V, corners>& ends) const {
     S least = models_[at(higher_)].least_among(ends);
-    if (seen_.on_face) least = std::max(least, model(other_ + rod_.middle(higher_), 0).least_above(ends, rod_.radius(higher_)));
+    if (seen_.on_face) least = std::max(least, model(beside_.support + rod_.middle(higher_), 0).least_above(ends, rod_.radius(higher_)));
     if (rod_.folds()) least = std::max(least, models_[at(1 - higher_)].least_among(ends));
     return between_ ? std::max(least, mean_.least_among(ends)) : least;
   }
@@ -167,7 +179,7 @@ class RodHeights {
     const V above = rod_.above_fold(d_);
     const auto bound = [&](const HeightModel<3, S>& model) { return end == 0 ? model.least_on_one_side(ends, V(-above), -turn) : model.least_on_one_side(ends, above, turn); };
     const S least = bound(models_[at(end)]);
-    return rod_.radius(end) > 0 ? std::max(least, bound(about_fold(end, farthest))) : least;
+    return rod_.radius(end) > 0 || beside_.count > 0 ? std::max(least, bound(about_fold(end, farthest))) : least;
   }
   template <std::size_t corners>
   S chord(const std::array<V, corners>& ends) const {
@@ -189,18 +201,25 @@ class RodHeights {
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
   bool stays_on_fold() const { return seen_.on_fold && between_; }
   HeightModel<3, S> model(const V& p, S radius) const {
-    BentBodies<3, S> all = bends_;
+    BentBodies<3, S> all = beside_.bends;
     rod_.add_disc(all, radius, seen_);
     return HeightModel<3, S>(all, d_, p);
   }
-  /// Of a ball and a point, no higher than that end as far along the axis as this.
+  /// Of a ball and a point, no higher than that end, and all that is about its axis, as far along the axis as this.
   HeightModel<3, S> about_fold(int end, S farthest) const {
-    const S radius = rod_.radius(end), towards = radius * (rod_.fold_sin + farthest) / (rod_.fold_cos + std::sqrt(std::max(S(0), 1 - farthest * farthest)));
-    const S ball = std::max(S(0), radius * rod_.fold_cos + towards * rod_.fold_sin);
-    BentBodies<3, S> all = bends_;
+    const S z = rod_.fold_sin, radius = rod_.radius(end);
+    S ball = 0, slope = 0;
+    const auto add = [&](S across, S along) {
+      const S more = along - across, here = std::sqrt(across + more * z * z), there = std::sqrt(std::max(S(0), across + more * farthest * farthest));
+      const S change = more > 0 ? more * z / here : more * (z + farthest) / (here + there);
+      ball += std::max(S(0), here - change * z), slope += change;
+    };
+    if (radius > 0) add(radius * radius, 0);
+    for (int i = 0; i < beside_.count; ++i) add(beside_.spheroids[at(i)][0], beside_.spheroids[at(i)][1]);
     static const BentBody<3, S> unit_ball = BentBody<3, S>::unit_ball();
+    BentBodies<3, S> all = beside_.bends_off_axis;
     all.add(unit_ball, ball);
-    return HeightModel<3, S>(all, d_, other_ + rod_.middle(end) - towards * rod_.shape.axis + ball * d_);
+    return HeightModel<3, S>(all, d_, beside_.support_off_axis + rod_.middle(end) + slope * rod_.shape.axis + ball * d_);
   }
   template <class Step>
   V moved(S most, const Step& step) const {
@@ -218,8 +237,8 @@ class RodHeights {
 
   static constexpr S rounding = 4 * std::numeric_limits<S>::epsilon();
   BentRod<S> rod_;
-  BentBodies<3, S> bends_;  ///< of all but the rod
-  V d_, other_, support_;
+  BesideRod<S> beside_;
+  V d_, support_;
   S height_ = 0;
   typename BentRod<S>::Seen seen_;
   std::array<V, 2> ends_;  ///< the support of A - B with the rod's bottom, its top alone

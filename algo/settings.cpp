@@ -49,7 +49,7 @@ int default_iterations(const Scene& scene, const Settings& s) {
   bool round = false;
   for (const Body& body : scene.bodies) {
     const double corners = corner_count(body.shape, scene.dimension);
-    round = round || corners == 0;
+    round = round || curved(body.shape);
     second = std::max(second, std::min(most, corners)), most = std::max(most, corners);
   }
   return static_cast<int>(std::clamp((round ? 64 : 4) * (most + second), static_cast<double>(s.max_iterations), 65536.0));
