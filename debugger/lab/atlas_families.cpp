@@ -104,7 +104,7 @@ void overlaps(std::vector<AtlasFamily>& out, bool quick) {
     flat.cases.push_back({tilt, pair({"", {Capsule{1, 2.5, 2}, 0}, identity_pose(3)}, {"", {Cylinder{0.5, 1.0 / 512, 2}, 0}, identity_pose(3)}), -1 - std::min(0.5, leant)});
     flat.cases.back().scene.bodies[1].pose.matrix = Eigen::AngleAxisd(tilt, vec(1, 0, 0)).toRotationMatrix();
   }
-  AtlasFamily sides{"C10", "a prism of many sides about a cylinder: through each of the sides the way out is as short", {}};
+  AtlasFamily sides{"P2", "a prism of many sides about a cylinder: through each of the sides the way out is as short", {}};
   for (int count = 4; count <= (quick ? 16 : 256); count *= 2) {
     PointSet prism{PointSetKind::hull, {}, {}};
     for (int i = 0; i < count; ++i)
