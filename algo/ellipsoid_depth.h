@@ -1,8 +1,8 @@
-// How deep ellipsoids are in each other, in a ball or in a rod, by branch and bound over the directions; in the plane ellipses.
+// How deep ellipsoids, rods and sums of such are in each other, by branch and bound over the directions; in the plane ellipses.
 //
 // Where many ways out of A - B are nearly as short (from the middle of what is nearly a ball all of them, of what is nearly a spheroid a circle of them), EPA would have to put faces everywhere:
 // of width s, each leaves s^2 / 8 of the radius open. But about every direction that was looked along the bends of both bodies say what no height is below, and that is off by far less
-// (algo/height_model.h, algo/rod_heights.h). So the sides of a cube, each a square of directions, are divided as long as a height less than the known least, by more than the tolerance, may lie in them: the one
+// (algo/height_model.h, algo/bent_sum.h). So the sides of a cube, each a square of directions, are divided as long as a height less than the known least, by more than the tolerance, may lie in them: the one
 // with the lowest bound first. (Land & Doig 1960.) In each the middle is looked along and then, if that is not enough, by Newton's method the least, or the bottom of the valley, near it.
 #pragma once
 

@@ -10,7 +10,7 @@ namespace gjkdbg {
 /// Whether two of the scene's bodies are of such kinds, and the query asks for a depth: it may depend on how they lie.
 bool may_have_outline(const Recording& recording);
 
-/// Bodies of revolution about parallel axes, what is nearly balls, bodies of revolution about nearly one line; or ellipsoids by their bends: spheroids about nearly one line, and all that EPA gave up on.
+/// Bodies of revolution about parallel axes, what is nearly balls, bodies of revolution about nearly one line; or by their bends: spheroids about nearly one line, and all ellipsoids, rods and sums of such that EPA gave up on.
 enum class OutlineKind { parallel_axes, near_balls, tilted_axes, bends };
 
 /// Of two bodies as they lie.

@@ -113,7 +113,7 @@ TEST_F(Newcomer, IsToldOfBends) {
     session.go_to(step);
     if (!kind_at<recorded::AxisTested>(session, step)) continue;
     const PseudoCode code = pseudo_code(session.recording(), step);
-    EXPECT_EQ(code.title, "Depth by the bends of ellipsoids");
+    EXPECT_EQ(code.title, "Depth by the bends");
     EXPECT_EQ(code.lines[static_cast<std::size_t>(code.current)], "    depth = min(depth, n.w)");
     ++axes;
   }
@@ -124,6 +124,29 @@ TEST_F(Newcomer, IsToldOfBends) {
     if (kind_at<recorded::SatBegan>(session, step)) session.go_to(step);
   const Explanation told = explain(session.recording(), session.frame());
   EXPECT_NE((told.title + told.text).find("instead of EPA"), std::string::npos) << told.title;
+}
+
+/// Sections, EPA, and then the bends: the second time it is told what SAT looks along now.
+TEST_F(Newcomer, IsToldWhatFollowsEpa) {
+  SceneFile file = session.scene();
+  file.scene = {}, file.scene.dimension = 3, file.scene.query = Query::penetration;
+  for (const bool flat : {false, true}) {
+    Body body{flat ? "flat" : "long", {}, identity_pose(3)};
+    if (flat) body.shape.geometry = Cylinder{0.5, 1.0 / 512, 2}, body.pose.matrix = Eigen::AngleAxisd(1e-3, Eigen::Vector3d::UnitX()).toRotationMatrix(), body.pose.rotation = RotationMatrix{body.pose.matrix};
+    else body.shape.geometry = Capsule{1, 2.5, 2};
+    file.scene.bodies.push_back(body);
+  }
+  file.method = {};
+  app.edit(file);
+  std::vector<std::string> titles, codes, short_ones;
+  for (std::size_t step = 0; step < session.count(); ++step) {
+    if (!kind_at<recorded::SatBegan>(session, step)) continue;
+    session.go_to(step);
+    titles.push_back(explain(session.recording(), session.frame()).title), codes.push_back(pseudo_code(session.recording(), step).title), short_ones.push_back(summary(session.recording(), step));
+  }
+  EXPECT_EQ(titles, (std::vector<std::string>{"Sections instead of EPA", "By the bends, after EPA"}));
+  EXPECT_EQ(codes, (std::vector<std::string>{"Depth of bodies about nearly one line", "Depth by the bends"}));
+  EXPECT_EQ(short_ones, (std::vector<std::string>{"about nearly one line", "by the bends"}));
 }
 
 /// Of what kind the bodies are where they meet is not known before: what is said holds of every kind.

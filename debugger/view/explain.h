@@ -39,6 +39,10 @@ bool outline_told(const Recording& recording);
 bool of_near_balls(const Recording& recording);
 bool of_tilted_axes(const Recording& recording);
 bool of_bends(const Recording& recording);
+/// Whether a step of SAT is one that goes on where EPA ran out of steps.
+bool after_epa(const Recording& recording, std::size_t step);
+/// Whether it looks by the bends: after EPA always.
+bool by_bends(const Recording& recording, std::size_t step);
 /// The name it has in the scene, with the pictures' letter: "bullet (A)"; "body A" where it has none.
 std::string body_name(const Recording& recording, int body);
 /// What a polytope's border consists of: "face"; in the plane "edge", on a line "endpoint".

@@ -39,6 +39,13 @@ Explanation ExplainMethods::operator()(const recorded::MprEnded& e) const {
 
 namespace {
 
+/// Whether a shape, or a part of it, is one whose bends are those of discs: see algo/rod_heights.h.
+bool has_rod(const Shape& shape) {
+  const auto& g = shape.geometry;
+  if (const auto* sum = std::get_if<Sum>(&g)) return has_rod(*sum->first) || has_rod(*sum->second);
+  return std::holds_alternative<Cylinder>(g) || std::holds_alternative<Cone>(g) || std::holds_alternative<Capsule>(g) || std::holds_alternative<PointSet>(g);
+}
+
 /// "2 edges of A's"; "none of B's".
 std::string count_of(int edges, const std::string& body) { return edges == 0 ? "none of " + body + "'s" : edges == 1 ? "an edge of " + body + "'s" : std::to_string(edges) + " edges of " + body + "'s"; }
 
@@ -48,15 +55,13 @@ Explanation ExplainMethods::operator()(const recorded::SatBegan& e) const {
   if (of_near_balls(recording))
     return {"What is nearly balls, instead of EPA", "From the middle of a ball every way out is as short, and here many are nearly: EPA would have to put faces everywhere. But each body is the sum of a ball, the largest that rolls within it, and a small rest. "
                                                     "The balls count exactly, and GJK and EPA look at the rests: every support is a way out of " + difference() + "."};
+  if (by_bends(recording, frame.step))
+    return {after_epa(recording, frame.step) ? "By the bends, after EPA" : "By the bends, instead of EPA",
+            std::string("Many ways out are nearly as short, and EPA ") + (after_epa(recording, frame.step) ? "ran out of steps" : "may run out of steps") + ": between its corners a flat face is all it knows of a round boundary. But how an ellipsoid bends is known" + (rod() ? ", and a rod is all between two discs, ellipsoids without height" : "") + ". So about every direction that is looked along it is known " +
+                "what no direction near it comes below. The sides of a cube are squares of directions: those where a shorter way out may be are divided until there are none."};
   if (of_tilted_axes(recording))
     return {"Sections instead of EPA", "Both bodies are bodies of revolution about nearly one line: a whole circle of ways out is nearly as short, and EPA would have to put face after face around it. But " + difference() + " changes little when it turns about that line. So it is looked at in sections through the line, and each "
                                        "says of those beside it how much shorter a way out of them may be: where that is not enough, one between is looked at."};
-  if (of_bends(recording)) {
-    const bool after_epa = frame.step > 0 && std::holds_alternative<recorded::EpaEnded>(recording.events[frame.step - 1]);
-    return {after_epa ? "By the bends, after EPA" : "By the bends, instead of EPA",
-            std::string("Many ways out are nearly as short, and EPA ") + (after_epa ? "ran out of steps" : "may run out of steps") + ": between its corners a flat face is all it knows of a round boundary. But how an ellipsoid bends is known" + (rod() ? ", and a rod is all between two discs, ellipsoids without height" : "") + ". So about every direction that is looked along it is known " +
-                "what no direction near it comes below. The sides of a cube are squares of directions: those where a shorter way out may be are divided until there are none."};
-  }
   if (of_an_outline(recording) && !outline_told(recording) && e.faces_a + e.faces_b == 0)
     return {"Ways out, instead of EPA", "Many ways out of " + difference() + " are as short as one another, or nearly, and EPA would put face after face there. But how these bodies are round is known: " + difference() +
                                             " is looked along until no direction can lead out sooner."};
@@ -100,12 +105,8 @@ Explanation ExplainMethods::operator()(const recorded::PointsProjected& e) const
   return {"Points projected in turn", why + "So a point looks for the nearest of the other body, and that for its nearest: " + points + "Two points that are each the nearest to the other are the closest of all."};
 }
 
-/// Whether a body is one whose bends are those of discs: see algo/rod_heights.h.
 bool ExplainMethods::rod() const {
-  return std::any_of(recording.scene.scene.bodies.begin(), recording.scene.scene.bodies.end(), [](const Body& body) {
-    const auto& g = body.shape.geometry;
-    return std::holds_alternative<Cylinder>(g) || std::holds_alternative<Cone>(g) || std::holds_alternative<Capsule>(g) || std::holds_alternative<PointSet>(g);
-  });
+  return std::any_of(recording.scene.scene.bodies.begin(), recording.scene.scene.bodies.end(), [](const Body& body) { return has_rod(body.shape); });
 }
 
 bool ExplainMethods::boxes() const { return of_two_boxes(recording, frame.step); }
@@ -124,11 +125,11 @@ Explanation ExplainMethods::operator()(const recorded::SatEnded& e) const {
   const std::string title = "SAT ends: " + std::string(word_of(e.status));
   if (of_near_balls(recording) && e.status == SatStatus::overlapping)
     return {title, "The bodies overlap by " + short_number(-e.distance) + " along " + short_vector(e.normal) + ", and no direction leads out sooner: the balls' radii and what is known of the rests leave nothing less. That is the depth."};
+  if (by_bends(recording, frame.step) && e.status == SatStatus::overlapping)
+    return {title, "The bodies overlap by " + short_number(-e.distance) + " along " + short_vector(e.normal) + ", and no direction leads out sooner: in every square of directions the bends leave nothing less. That is the depth."};
   if (of_tilted_axes(recording) && e.status == SatStatus::overlapping)
     return {title, "The bodies overlap by " + short_number(-e.distance) + " along " + short_vector(e.normal) + ", and no direction leads out sooner, in the sections that were looked at or between them. That is the depth."};
-  if (of_bends(recording) && e.status == SatStatus::overlapping)
-    return {title, "The bodies overlap by " + short_number(-e.distance) + " along " + short_vector(e.normal) + ", and no direction leads out sooner: in every square of directions the bends leave nothing less. That is the depth."};
-  if (of_bends(recording) && frame.step + 1 == recording.events.size()) return {title, "What is left is within rounding, or a limit was reached before the bounds met. EPA's answer stands."};
+  if (by_bends(recording, frame.step) && frame.step + 1 == recording.events.size()) return {title, "What is left is within rounding, or a limit was reached before the bounds met. EPA's answer stands."};
   if (of_near_balls(recording) || of_tilted_axes(recording) || of_bends(recording)) return {title, "What is left is within rounding, or a limit was reached before the bounds met. EPA goes on."};
   if (of_an_outline(recording) && !outline_told(recording))
     return {title, e.status == SatStatus::overlapping ? "The bodies overlap by " + short_number(-e.distance) + " along " + short_vector(e.normal) + ", and no direction leads out sooner. That is the depth."

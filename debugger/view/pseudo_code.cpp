@@ -88,8 +88,8 @@ struct PseudoCodeOf {
 
   PseudoCode sat(int line) const {
     if (of_near_balls(recording)) return {"Depth of what is nearly balls", {"rho = balls that roll within A and B", "for n of GJK, EPA on what they leave", "  w = support(n)", "  if n.w < 0: apart", "  depth = min(depth, n.w)", "rho and the rests' depth are no less: depth"}, line};
+    if (by_bends(recording, step)) return {"Depth by the bends", {"for squares of directions n", "  for its middle n, then Newton's n", "    w = support(n)", "    if n.w < 0: apart", "    depth = min(depth, n.w)", "  by the bends some n is lower: divide", "no n can be any lower: depth"}, line == 5 ? 6 : line};
     if (of_tilted_axes(recording)) return {"Depth of bodies about nearly one line", {"for sections through the line", "  for n of the section", "    w = support(n)", "    if n.w < 0: apart", "    depth = min(depth, n.w)", "no section between is less deep: depth"}, line};
-    if (of_bends(recording)) return {"Depth by the bends of ellipsoids", {"for squares of directions n", "  for its middle n, then Newton's n", "    w = support(n)", "    if n.w < 0: apart", "    depth = min(depth, n.w)", "  by the bends some n is lower: divide", "no n can be any lower: depth"}, line == 5 ? 6 : line};
     if (of_an_outline(recording)) return {"Depth of bodies of revolution", {"e = across the axes, towards O", "for normals n of the outline", "  w = support(n)", "  if n.w < 0: apart", "  depth = min(depth, n.w)", "no way out is shorter: depth"}, line};
     const bool plane = recording.scene.scene.dimension == 2, yes_or_no = recording.scene.scene.query == Query::intersect;
     return {"SAT", {plane ? "for n in normals of edges of A," : "for n in faces of A, faces of B,", plane ? "         of edges of B" : "         edge of A x edge of B", "  w = support(n)", yes_or_no ? "  if n.w < 0: apart" : "  if n.w < 0: apart, by -n.w or more", "  depth = min(depth, n.w)", "no gap: overlap, depth"}, line};

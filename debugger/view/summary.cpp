@@ -93,11 +93,18 @@ bool has_outline(const Recording& recording, OutlineKind kind) {
 bool of_near_balls(const Recording& recording) { return has_outline(recording, OutlineKind::near_balls); }
 bool of_tilted_axes(const Recording& recording) { return has_outline(recording, OutlineKind::tilted_axes); }
 bool of_bends(const Recording& recording) { return has_outline(recording, OutlineKind::bends); }
+bool after_epa(const Recording& recording, std::size_t step) {
+  for (std::size_t i = step + 1; i-- > 1;)
+    if (std::holds_alternative<recorded::SatBegan>(recording.events[i])) return std::holds_alternative<recorded::EpaEnded>(recording.events[i - 1]);
+  return false;
+}
+bool by_bends(const Recording& recording, std::size_t step) { return of_bends(recording) || after_epa(recording, step); }
 
 namespace {
 
 struct Summarise {
   const Recording& recording;
+  std::size_t step;
   bool newest_first;
 
   std::string operator()(const recorded::GjkBegan& e) const { return "d = " + short_vector(e.direction); }
@@ -125,8 +132,8 @@ struct Summarise {
   }
   std::string operator()(const recorded::SatBegan& e) const {
     if (of_near_balls(recording)) return "nearly balls";
+    if (by_bends(recording, step)) return "by the bends";
     if (of_tilted_axes(recording)) return "about nearly one line";
-    if (of_bends(recording)) return "by the bends";
     if (of_an_outline(recording) && e.faces_a + e.faces_b == 0) return "a curved outline";
     if (of_an_outline(recording)) return std::to_string(e.faces_a) + " + " + std::to_string(e.faces_b) + " edges of the outline";
     return std::to_string(e.faces_a) + " + " + std::to_string(e.faces_b) + " faces, " + std::to_string(e.edge_pairs) + " edge pairs";
@@ -163,6 +170,6 @@ struct Summarise {
 
 }  // namespace
 
-std::string summary(const Recording& recording, std::size_t step, bool newest_first) { return std::visit(Summarise{recording, newest_first}, recording.events[step]); }
+std::string summary(const Recording& recording, std::size_t step, bool newest_first) { return std::visit(Summarise{recording, step, newest_first}, recording.events[step]); }
 
 }  // namespace gjkdbg
