@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "algo/bent_sum.h"
@@ -13,6 +14,7 @@
 #include "recordings/recording.h"
 #include "tests/support/has_event.h"
 #include "tests/support/heights.h"
+#include "tests/support/heights_about.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/rod_scenes.h"
 
@@ -57,17 +59,7 @@ TEST(RodHeights, NoHeightIsBelowIt) {
       const auto point = difference.support(d);
       const auto heights = pair->model(d, point);
       EXPECT_EQ(heights.height(), d.dot(point.w));
-      std::array<V3, 4> corners;
-      const V3 about = i % 6 == 0 ? random.direction() : d;
-      const double size = std::pow(10, random.uniform(-3, -0.01));
-      for (V3& corner : corners) corner = (about + size * random.uniform(0, 1) * random.direction()).normalized();
-      const double least = heights.least_among(corners);
-      for (int j = 0; j < 20; ++j) {
-        V3 within = V3::Zero();
-        for (const V3& corner : corners) within += random.uniform(0, 1) * corner;
-        const V3 n = within.normalized();
-        EXPECT_LE(least, n.dot(difference.support(n).w) + 1e-13) << k << ", " << i;
-      }
+      expect_none_below(random, heights, difference, i % 6 == 0 ? random.direction() : d, std::to_string(k) + ", " + std::to_string(i));
     }
   }
 }
