@@ -187,13 +187,18 @@ class SumHeights {
     for (std::size_t i = 0; i < parts_->rod_count; ++i) {
       if (i == main_) continue;
       if (first.about(rod(i).shape.axis)) first = first.with_disc(discs[i].middle, discs[i].radius);
-      else rod(i).add_disc(beside.bends_off_axis, discs[i].radius, seen[i]), beside.support_off_axis += discs[i].point;
+      else if (const V& axis = rod(i).shape.axis; seen[i].round && first.nearly_about(axis)) {
+        rod(i).add_disc(beside.bends, discs[i].radius, seen[i]), beside.support_off_axis += discs[i].middle, on_axis += discs[i].point - discs[i].middle;
+        beside.spheroids[beside.count++] = {first.along_axis(axis), discs[i].radius * discs[i].radius, 0};
+      } else {
+        for (BentBodies<3, S>* bends : {&beside.bends, &beside.bends_off_axis}) rod(i).add_disc(*bends, discs[i].radius, seen[i]);
+        beside.support_off_axis += discs[i].point;
+      }
     }
-    beside.bends = beside.bends_off_axis;
     for (std::size_t i = 0; i < parts_->ellipsoid_count; ++i) {
       const auto& [body, spheroid, side] = parts_->ellipsoids[i];
       beside.bends.add(body, body.greatest);
-      if (spheroid && first.about(spheroid->axis)) beside.spheroids[at(beside.count++)] = {spheroid->across * spheroid->across, spheroid->along * spheroid->along}, on_axis += supports_[i];
+      if (spheroid && first.nearly_about(spheroid->axis)) beside.spheroids[beside.count++] = {first.along_axis(spheroid->axis), spheroid->across * spheroid->across, spheroid->along * spheroid->along}, on_axis += supports_[i];
       else beside.bends_off_axis.add(body, body.greatest), beside.support_off_axis += supports_[i];
     }
     beside.support = beside.support_off_axis + on_axis;

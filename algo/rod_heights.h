@@ -35,6 +35,16 @@
 
 namespace gjkdbg {
 
+/// How far along an axis directions are at most towards its end: of the spherical polygon with these corners, a mean of them over its length, which is no less than one's part along d.
+template <class S, std::size_t corners>
+S farthest_rise(const Vector<3, S>& axis, int end, const std::array<Vector<3, S>, corners>& ends, const Vector<3, S>& d) {
+  const S sign = end == 0 ? S(-1) : S(1);
+  S rise = -1, ahead = 1;
+  for (const Vector<3, S>& n : ends) rise = std::max(rise, sign * n.dot(axis)), ahead = std::min(ahead, d.dot(n));
+  if (rise > 0) rise = ahead > rise ? rise / ahead : S(1);
+  return sign * rise;
+}
+
 /// A rod's two discs, and the fold between them.
 template <class S>
 struct BentRod {
@@ -59,8 +69,11 @@ struct BentRod {
     sum.shape.middle += middle, sum.shape.top += radius, sum.shape.bottom += radius;
     return sum;
   }
-  /// Whether what is of revolution about that axis (zero: any) is so about this one.
+  /// Whether what is of revolution about that axis (zero: any) is so about this one, within rounding; or nearly.
   bool about(const V& axis) const { return shape.axis.cross(axis).norm() <= 4 * std::numeric_limits<S>::epsilon(); }
+  bool nearly_about(const V& axis) const { return shape.axis.cross(axis).norm() <= S(1) / 64; }
+  /// That axis, or the rod's for none, the way the rod's leads.
+  V along_axis(const V& axis) const { return is_zero(axis) ? shape.axis : axis.dot(shape.axis) < 0 ? V(-axis) : axis; }
 
   bool folds() const { return shape.half > 0 || shape.top != shape.bottom; }
   S radius(int end) const { return end == 0 ? shape.bottom : shape.top; }
@@ -69,15 +82,6 @@ struct BentRod {
   V above_fold(const V& d) const { return (shape.axis - fold_sin * d) / fold_cos; }
   /// The end on whose side of the fold that is.
   int end_above(const V& n) const { return n.dot(shape.axis) > fold_sin ? 1 : 0; }
-  /// How far along the axis directions are at most on the side of that end: of the spherical polygon with these corners, a mean of them over its length, which is no less than one's part along d.
-  template <std::size_t corners>
-  S farthest_rise(int end, const std::array<V, corners>& ends, const V& d) const {
-    const S sign = end == 0 ? S(-1) : S(1);
-    S rise = -1, ahead = 1;
-    for (const V& n : ends) rise = std::max(rise, sign * n.dot(shape.axis)), ahead = std::min(ahead, d.dot(n));
-    if (rise > 0) rise = ahead > rise ? rise / ahead : S(1);
-    return sign * rise;
-  }
   V on_fold(const V& n) const {
     const V across = n - shape.axis * shape.axis.dot(n);
     if (is_zero(across)) return n;  // as far from all of it
@@ -116,14 +120,18 @@ struct BentRod {
   }
 };
 
-/// All but a rod, of a sum, and what of it is no spheroid about the rod's axis.
+/// All but a rod, of a sum, and what of it is no spheroid, or disc, nearly about the rod's axis.
 template <class S>
 struct BesideRod {
-  static constexpr int most = 4;
+  static constexpr std::size_t most = 4;
+  struct Spheroid {
+    Vector<3, S> axis;  ///< the way the rod's leads
+    S across, along;    ///< squared radii
+  };
   BentBodies<3, S> bends, bends_off_axis;
-  Vector<3, S> support, support_off_axis;        ///< along the direction that is asked for
-  std::array<std::array<S, 2>, most> spheroids;  ///< their squared radii across the axis and along it
-  int count = 0;
+  Vector<3, S> support, support_off_axis;  ///< along the direction that is asked for
+  std::array<Spheroid, 2 * most> spheroids;
+  std::size_t count = 0;
 };
 
 /// Heights about a direction, of the pair's whole difference; unit, in body 0's frame.
@@ -174,12 +182,12 @@ class RodHeights {
   /// Of those on this end's side of the fold, with d on it; infinite where there are none.
   template <std::size_t corners>
   S least_on_side(int end, const std::array<V, corners>& ends) const {
-    const S farthest = rod_.farthest_rise(end, ends, d_), turn = rod_.fold_sin / rod_.fold_cos;
+    const S farthest = farthest_rise<S>(rod_.shape.axis, end, ends, d_), turn = rod_.fold_sin / rod_.fold_cos;
     if (end == 0 ? farthest > rod_.fold_sin + rounding : farthest < rod_.fold_sin - rounding) return std::numeric_limits<S>::infinity();
     const V above = rod_.above_fold(d_);
     const auto bound = [&](const HeightModel<3, S>& model) { return end == 0 ? model.least_on_one_side(ends, V(-above), -turn) : model.least_on_one_side(ends, above, turn); };
     const S least = bound(models_[at(end)]);
-    return rod_.radius(end) > 0 || beside_.count > 0 ? std::max(least, bound(about_fold(end, farthest))) : least;
+    return rod_.radius(end) > 0 || beside_.count > 0 ? std::max(least, bound(about_fold(end, ends))) : least;
   }
   template <std::size_t corners>
   S chord(const std::array<V, corners>& ends) const {
@@ -205,21 +213,27 @@ class RodHeights {
     rod_.add_disc(all, radius, seen_);
     return HeightModel<3, S>(all, d_, p);
   }
-  /// Of a ball and a point, no higher than that end, and all that is about its axis, as far along the axis as this.
-  HeightModel<3, S> about_fold(int end, S farthest) const {
-    const S z = rod_.fold_sin, radius = rod_.radius(end);
-    S ball = 0, slope = 0;
-    const auto add = [&](S across, S along) {
-      const S more = along - across, here = std::sqrt(across + more * z * z), there = std::sqrt(std::max(S(0), across + more * farthest * farthest));
-      const S change = more > 0 ? more * z / here : more * (z + farthest) / (here + there);
-      ball += std::max(S(0), here - change * z), slope += change;
+  /// Of a ball and a point, no higher than that end, and all that is nearly about its axis, on its side of the fold. Along an axis that is not quite the rod's, directions there come to no more than the fold's z and
+  /// what the axes differ by.
+  template <std::size_t corners>
+  HeightModel<3, S> about_fold(int end, const std::array<V, corners>& ends) const {
+    const S radius = rod_.radius(end);
+    S ball = 0;
+    V point = beside_.support_off_axis + rod_.middle(end);
+    const auto add = [&](const V& axis, S across, S along) {
+      const S more = along - across, off = (axis - rod_.shape.axis).norm(), z = d_.dot(axis);
+      const auto height = [&](S x) { return std::sqrt(std::max(S(0), across + more * x * x)); };
+      S far = farthest_rise<S>(axis, end, ends, d_), near = std::clamp(end == 0 ? rod_.fold_sin + off : rod_.fold_sin - off, S(-1), S(1));
+      if (end == 0 ? far > near : far < near) far = near;
+      const S slope = more > 0 ? more * z / height(z) : height(far) + height(near) > 0 ? more * (near + far) / (height(far) + height(near)) : S(0);
+      ball += std::max(S(0), more > 0 ? height(z) - slope * z : height(near) - slope * near), point += slope * axis;
     };
-    if (radius > 0) add(radius * radius, 0);
-    for (int i = 0; i < beside_.count; ++i) add(beside_.spheroids[at(i)][0], beside_.spheroids[at(i)][1]);
+    if (radius > 0) add(rod_.shape.axis, radius * radius, 0);
+    for (std::size_t i = 0; i < beside_.count; ++i) add(beside_.spheroids[i].axis, beside_.spheroids[i].across, beside_.spheroids[i].along);
     static const BentBody<3, S> unit_ball = BentBody<3, S>::unit_ball();
     BentBodies<3, S> all = beside_.bends_off_axis;
     all.add(unit_ball, ball);
-    return HeightModel<3, S>(all, d_, beside_.support_off_axis + rod_.middle(end) + slope * rod_.shape.axis + ball * d_);
+    return HeightModel<3, S>(all, d_, point + ball * d_);
   }
   template <class Step>
   V moved(S most, const Step& step) const {
