@@ -60,12 +60,24 @@ struct BentParts {
       middles[side] += rod.middle;
       return true;
     }
+    const BentRod<S> bent = BentRod<S>::of(rod);
+    for (std::size_t i = 0; i < rod_count; ++i)
+      if (rods[i].side == side && rods[i].rod.about(rod.axis) && merge(rods[i].rod, rods[i].rod.shape.axis.dot(rod.axis) < 0 ? BentRod<S>::of(rod.turned()) : bent)) return true;
     if (rod_count == most) return false;
-    rods[rod_count++] = {BentRod<S>::of(rod), side};
+    rods[rod_count++] = {bent, side};
     return true;
   }
   void have_a_rod() {
     if (rod_count == 0) add_rod({V::UnitX(), V::Zero()}, 0);
+  }
+
+ private:
+  /// Two rods about one axis with one fold are one rod.
+  static bool merge(BentRod<S>& sum, const BentRod<S>& rod) {
+    if (std::abs(sum.fold_sin - rod.fold_sin) > 4 * std::numeric_limits<S>::epsilon()) return false;
+    const Revolved<S>&a = sum.shape, &b = rod.shape;
+    sum = BentRod<S>::of({a.axis, a.middle + b.middle, a.top + b.top, a.bottom + b.bottom, a.half + b.half});
+    return true;
   }
 };
 
@@ -286,11 +298,50 @@ struct BentSum {
   SatWitnesses<3, S> witnesses(const Model& model, const Point&) const { return {model.points()[0], -model.points()[1]}; }
 };
 
-/// Whether the bends tell how deep they are: of ellipsoids and rods, and sums of such.
+/// In the plane, of whatever is ellipses and what has corners, and sums of such: a corner is a point, and where another takes over the height has a kink that leads upwards, which dividing soon comes to.
+template <class S>
+struct BentOutline {
+  using Model = HeightModel<2, S>;
+  static constexpr std::size_t most = BentBodies<2, S>::most;
+  std::array<BentBody<2, S>, most> ellipses;
+  std::size_t count = 0;
+
+  /// Unset where none is an ellipse, or one is too flat for its bends to be told.
+  template <class Difference>
+  static std::optional<BentOutline> of(const Difference& difference) {
+    if constexpr (Difference::D == 2 && requires { difference.a().core(), difference.b().core(); }) {
+      BentOutline found;
+      if (found.add(difference.a().core(), Matrix<2, S>::Identity()) && found.add(difference.b().core(), difference.rotation()) && found.count > 0) return found;
+    }
+    return std::nullopt;
+  }
+
+  template <class Point>
+  Model model(const Vector<2, S>& d, const Point& point) const {
+    BentBodies<2, S> bent;
+    for (std::size_t i = 0; i < count; ++i) bent.add(ellipses[i], ellipses[i].greatest);
+    return Model(bent, d, point.w);
+  }
+  template <class Point>
+  SatWitnesses<2, S> witnesses(const Model&, const Point& point) const { return {point.a, point.b}; }
+
+ private:
+  template <class Core>
+  bool add(const Core& core, const Matrix<2, S>& axes) {
+    if (const auto* sum = std::get_if<SumCore<2, S>>(&core)) return add(sum->first->core(), axes) && add(sum->second->core(), axes);
+    const auto* ellipse = std::get_if<EllipsoidCore<2, S>>(&core);
+    if (!ellipse || ellipse->radii.minCoeff() == 0) return true;
+    if (!(ellipse->radii.minCoeff() * 1024 > ellipse->radii.maxCoeff()) || count == most) return false;
+    ellipses[count++] = BentBody<2, S>::of(*ellipse, axes);
+    return true;
+  }
+};
+
+/// Whether the bends tell how deep they are: of ellipsoids and rods, and sums of such; in the plane of all that has an ellipse.
 template <class Difference>
 bool has_bends(const Difference& difference) {
   using S = typename Difference::S;
-  return BentPair<Difference::D, S>::of(difference) || BentSum<S>::of(difference);
+  return BentPair<Difference::D, S>::of(difference) || BentSum<S>::of(difference) || BentOutline<S>::of(difference);
 }
 
 }  // namespace gjkdbg

@@ -31,6 +31,8 @@ std::optional<OutlineDepth<Difference::D, typename Difference::S>> depth_by_bend
     if (const auto pair = BentPair<Difference::D, S>::of(difference)) return asked ? std::nullopt : std::optional(ellipsoid_depth(difference, *pair, tolerance, most, trace));
   if constexpr (Difference::D == 3)
     if (const auto sum = BentSum<S>::of(difference)) return ellipsoid_depth(difference, *sum, tolerance, most, trace);
+  if constexpr (Difference::D == 2)
+    if (const auto outline = BentOutline<S>::of(difference)) return ellipsoid_depth(difference, *outline, tolerance, most, trace);
   return std::nullopt;
 }
 

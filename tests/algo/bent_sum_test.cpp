@@ -202,5 +202,48 @@ TEST(BentSum, TellsWhatSectionsLeaveOpen) {
   }
 }
 
+/// An ellipse that is nearly a circle, alone or with a short segment or a triangle, and what is of the other kinds: whatever EPA makes of them, the bends agree with it, and close where it does not.
+TEST(BentOutline, TellsTheDepthInThePlane) {
+  RodScenes random(17);
+  int beyond_epa = 0;
+  for (int k = 0; k < pairs_asked(400); ++k) {
+    const auto ellipse = [&] {
+      const double radius = random.uniform(0.3, 1), unlike = std::pow(10, random.uniform(-5, -0.3));
+      return Shape{Ellipsoid{AnyVector(Eigen::Vector2d(radius, radius * (1 - unlike)))}, 0};
+    };
+    const auto cornered = [&](int kind) {
+      const double size = std::pow(10, random.uniform(-4, 0));
+      if (kind % 3 == 0) return Shape{PointSet{PointSetKind::segment, {Eigen::Vector2d(-size, 0), Eigen::Vector2d(size, 0)}, ""}, 0};
+      if (kind % 3 == 1) return Shape{Capsule{0.3, size, 0}, 0};
+      return Shape{PointSet{PointSetKind::hull, {Eigen::Vector2d(-size, -size), Eigen::Vector2d(size, -size), Eigen::Vector2d(0, size)}, ""}, 0};
+    };
+    Shape first = ellipse(), second = k % 2 == 0 ? cornered(k / 2) : ellipse();
+    if (k % 4 > 0) first = Shape{Sum{std::make_shared<Shape>(first), std::make_shared<Shape>(cornered(k / 4))}, 0};
+    SceneFile file;
+    file.scene.dimension = 2, file.scene.query = Query::penetration;
+    file.scene.bodies = {{"A", first, identity_pose(2)}, {"B", second, identity_pose(2)}};
+    const double turn = random.uniform(0, 6), away = k % 3 == 0 ? 0 : random.uniform(0, 0.5);
+    const Rod3 way = random.direction();
+    Pose& pose = file.scene.bodies[1].pose;
+    pose.matrix = Eigen::Rotation2Dd(turn).toRotationMatrix(), pose.rotation = RotationMatrix{pose.matrix}, pose.position = Eigen::Vector2d(away * way[0], away * way[1]);
+    const Convex<2, double> a(first, 1), b(second, 1);
+    MinkowskiDifference<2, double, Convex<2, double>> difference(a, b, file.scene.bodies[0].pose, pose, 1);
+    const Result r = record(file).result;
+    if (!(*r.signed_distance < -difference.radius())) continue;  // the cores are apart
+    EXPECT_NE(r.status, StatusWord("iteration_limit")) << k;
+    file.method.max_iterations = 200;  // EPA alone
+    beyond_epa += record(file).result.status == StatusWord("iteration_limit");
+    const auto outline = BentOutline<double>::of(difference);
+    ASSERT_TRUE(outline) << k;
+    NoTrace none;
+    const auto found = ellipsoid_depth(difference, *outline, 1e-10, 512, none);
+    const double depth = found.sat.depth + difference.radius();
+    EXPECT_EQ(found.sat.status, SatStatus::overlapping) << k;
+    EXPECT_GE(depth, -*r.upper_bound - 1e-13) << k;
+    EXPECT_LE(depth - found.slack, -*r.lower_bound + 1e-13) << k;
+  }
+  EXPECT_GT(beyond_epa, 0);
+}
+
 }  // namespace
 }  // namespace gjkdbg
