@@ -22,7 +22,7 @@ void expect_none_below(RodScenes& random, const Model& heights, Difference& diff
     Eigen::Vector3d within = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& corner : corners) within += random.uniform(0, 1) * corner;
     const Eigen::Vector3d n = within.normalized();
-    EXPECT_LE(least, n.dot(difference.support(n).w) + 2e-13) << what;
+    EXPECT_LE(least, n.dot(difference.support(n).w) + 1e-13) << what;
   }
 }
 
