@@ -206,7 +206,7 @@ TEST(BentSum, TellsWhatSectionsLeaveOpen) {
 TEST(BentOutline, TellsTheDepthInThePlane) {
   RodScenes random(17);
   int beyond_epa = 0;
-  for (int k = 0; k < pairs_asked(400); ++k) {
+  for (int k = 0; k < pairs_asked(1200); ++k) {
     const auto ellipse = [&] {
       const double radius = random.uniform(0.3, 1), unlike = std::pow(10, random.uniform(-5, -0.3));
       return Shape{Ellipsoid{AnyVector(Eigen::Vector2d(radius, radius * (1 - unlike)))}, 0};
@@ -242,7 +242,7 @@ TEST(BentOutline, TellsTheDepthInThePlane) {
     EXPECT_GE(depth, -*r.upper_bound - 1e-13) << k;
     EXPECT_LE(depth - found.slack, -*r.lower_bound + 1e-13) << k;
   }
-  EXPECT_GT(beyond_epa, 0);
+  EXPECT_GT(beyond_epa, 0);  // about one in twenty, so also of the few that are drawn for the sanitizers
 }
 
 }  // namespace
