@@ -515,6 +515,19 @@ class Program(unittest.TestCase):
         self.assertEqual((nothing.returncode, nothing.stderr), (0, "gjkdbg: nothing to chart: none of these methods answers in these families\n"))
         self.assertEqual({p.name for p in (self.path / "nothing").iterdir()}, {"chart.csv", "chart.json"})
 
+    def test_interrupted_measuring_keeps_what_was_done(self):
+        for command in ("chart", "atlas"):
+            folder = self.path / f"interrupted-{command}"
+            program = subprocess.Popen([PROGRAM, command, "-o", str(folder)], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            for _ in range(500):  # until it measures
+                if folder.exists():
+                    break
+                time.sleep(0.02)
+            program.send_signal(signal.SIGINT)
+            self.assertIn(f"gjkdbg: interrupted: {folder} holds what was done until then\n", program.communicate(timeout=120)[1])
+            self.assertEqual(program.returncode, 0)
+            json.loads((folder / f"{command}.json").read_text())
+
     def test_atlas_and_its_gate(self):
         folder = self.path / "atlas"
         kept = ROOT / "tests/kept/atlas.json"

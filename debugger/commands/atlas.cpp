@@ -30,8 +30,8 @@ struct AtlasCommand {
     const std::vector<Variant> columns = chosen(variants(true), methods);
     const std::vector<AtlasFamily> rows = atlas_families(quick, families);
     const Kept kept = gate.empty() ? Kept() : read_gate(gate, columns, rows, !families.empty());
-    make_folder(output);
     LabProgress progress;
+    make_folder(output);
     const Atlas atlas = make_atlas(rows, columns, std::ref(progress));
     const std::filesystem::path folder(output);
     write_output((folder / "atlas.csv").string(), atlas_csv(atlas));
@@ -39,6 +39,7 @@ struct AtlasCommand {
     const auto [width, height] = atlas_picture_size(atlas);
     draw_both([&](const std::string& terminal, const std::string& file) { return atlas_gnuplot(atlas, terminal, file); }, folder / "atlas", width, height);
     print(atlas);
+    progress.tell_if_interrupted(output);
     return compare(atlas, kept) ? exit_difference : exit_done;
   }
 

@@ -25,7 +25,10 @@ std::atomic<bool> interrupted{false};
 
 LabProgress::LabProgress() : began_(std::chrono::steady_clock::now()) {
   interrupted = false;
-  std::signal(SIGINT, [](int) { interrupted = true; });
+  std::signal(SIGINT, [](int) {
+    interrupted = true;
+    std::signal(SIGINT, SIG_DFL);
+  });
 }
 LabProgress::~LabProgress() { std::signal(SIGINT, SIG_DFL); }
 
@@ -36,6 +39,11 @@ bool LabProgress::operator()(double share) {
     std::cerr << "\r" << static_cast<int>(share * 100) << "%, " << left << " s left\033[K" << (share >= 1 ? "\n" : "") << std::flush;
   }
   return !interrupted;
+}
+
+bool LabProgress::tell_if_interrupted(const std::string& folder) const {
+  if (interrupted) std::cerr << (isatty(STDERR_FILENO) != 0 ? "\n" : "") << "gjkdbg: interrupted: " << folder << " holds what was done until then\n";
+  return interrupted;
 }
 
 namespace {
@@ -67,8 +75,8 @@ struct ChartCommand {
 
   int run() const {
     (void)chosen(variants(), options.methods), (void)chart_families(0, options.families);  // a name there is not: before anything is made
-    make_folder(output);
     LabProgress progress;
+    make_folder(output);
     const Chart chart = make_chart(options, std::ref(progress));
     const std::filesystem::path folder(output);
     write_output((folder / "chart.csv").string(), chart_csv(chart));
@@ -76,7 +84,8 @@ struct ChartCommand {
     for (const ChartPicture& picture : chart_pictures())
       if (picture.has_something(chart)) draw_both([&](const std::string& terminal, const std::string& file) { return picture.drawing(chart, terminal, file); }, folder / picture.name, picture.width, picture.height);
     print(chart);
-    if (std::all_of(chart.panels.begin(), chart.panels.end(), [](const ChartPanel& panel) { return panel.points.empty(); })) std::cerr << "gjkdbg: nothing to chart: none of these methods answers in these families\n";
+    const bool nothing = std::all_of(chart.panels.begin(), chart.panels.end(), [](const ChartPanel& panel) { return panel.points.empty(); });
+    if (!progress.tell_if_interrupted(output) && nothing) std::cerr << "gjkdbg: nothing to chart: none of these methods answers in these families\n";
     return exit_done;
   }
 

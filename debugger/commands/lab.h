@@ -8,12 +8,14 @@
 
 namespace gjkdbg {
 
-/// A line on the terminal with the time left. Ctrl-C makes the next call return false: what was done is kept.
+/// A line on the terminal with the time left. Ctrl-C makes the next call return false: what was done is kept; a second one ends the program.
 class LabProgress {
  public:
   LabProgress();
   ~LabProgress();
   bool operator()(double share);
+  /// After the last call: whether Ctrl-C ended it; then says on standard error that `folder` holds only what was done.
+  bool tell_if_interrupted(const std::string& folder) const;
 
  private:
   std::chrono::steady_clock::time_point began_;
