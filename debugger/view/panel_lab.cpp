@@ -17,11 +17,18 @@ Colour verdict_colour(int verdict, const Palette& p) {
 
 Colour text_on(int verdict) { return rgb(verdict >= 1 && verdict <= 4 ? 0x141414 : 0xffffff); }
 
+/// One digit and the power of ten, as short as can be: 3e-12, 2e-9.
+std::string magnitude(double x) {
+  std::string text = formatted(x, "%.0e");
+  if (const std::size_t tens = text.size() - 2; text.size() > 3 && text[tens] == '0') text.erase(tens, 1);
+  return text;
+}
+
 /// The verdict's mark and the size of the error; in a narrow cell smaller, in a narrower one the mark.
 void cell_text(const Theme& theme, const MeasuredCell& cell, ImVec2 low, ImVec2 high) {
-  const std::string mark = atlas_verdict_marks[static_cast<std::size_t>(cell.verdict)], number = cell.verdict >= 7 || cell.worst_error == 0 ? "" : formatted(cell.worst_error, "%.0e");
-  const float room = high.x - low.x - theme.px(2), smallest = 0.7f;
-  const std::string text = smallest * small_width(theme, mark + number) > room + theme.px(2) ? mark : mark + number;
+  const std::string mark = atlas_verdict_marks[static_cast<std::size_t>(cell.verdict)], number = cell.verdict >= 7 || cell.worst_error == 0 ? "" : magnitude(cell.worst_error);
+  const float room = high.x - low.x - theme.px(5), smallest = 0.7f;
+  const std::string text = smallest * small_width(theme, mark + number) > room + theme.px(5) ? mark : mark + number;
   const float width = small_width(theme, text), size = theme.small->FontSize * std::clamp(room / std::max(width, 1.f), smallest, 1.f);
   const float drawn = width * size / theme.small->FontSize;
   ImGui::GetWindowDrawList()->AddText(theme.small, size, {(low.x + high.x - drawn) / 2, (low.y + high.y - size) / 2}, packed(text_on(cell.verdict)), text.c_str());
@@ -182,7 +189,7 @@ void lab_panel(App& app, const Area& area) {
     }
     ImGui::Dummy({0, theme.px(2)});
     if (there) wrapped(chart ? told_of(app.chart_view)
-                  : "The worst verdict of every family of hard pairs, a row a method, with the largest error as a share of the size, where it is not 0. Point at a family for what it is, at a verdict for what it means, at a cell for the reason.",
+                  : "The worst verdict of every family of hard pairs, a row a method; the largest error is a share of the size. Point at a family, a verdict or a cell to read more.",
             theme.palette.text_faint);  // it is explained where there is nothing yet
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const ImVec2 size{ImGui::GetWindowContentRegionMax().x - ImGui::GetWindowContentRegionMin().x, area.y + area.height - at.y - theme.px(14)};
