@@ -146,16 +146,14 @@ class ClosedForm {
     const bool free_u = n.s > 0 && n.s < 1, free_v = n.t > 0 && n.t < 1;
     if constexpr (D == 3) {
       if (free_u && free_v) {
-        const V across = u_.cross(v_);
-        const S squared = across.dot(across);
-        if (squared > S(1e-6) * uu_ * vv_) {
-          n.w = across * (across.dot(c) / squared);
-          return;
+        const V &longer = longer_one(), aside = of_shorter_aside();
+        constexpr S bar = 1000 * std::numeric_limits<S>::epsilon();
+        if (aside.dot(aside) > bar * bar * std::min(uu_, vv_)) {
+          const V across = longer.cross(aside);
+          n.w = across * (across.dot(c) / across.dot(across));
+        } else {  // parallel, but for rounding
+          n.w -= longer * (n.w.dot(longer) / longer.dot(longer));
         }
-        // Nearly parallel: across u, and across what of v is across u, as far as that is more than rounding.
-        n.w -= u_ * (n.w.dot(u_) / uu_);
-        const V aside = v_ - u_ * (uv_ / uu_);
-        if (const S length = aside.norm(), bar = 1000 * std::numeric_limits<S>::epsilon() * std::sqrt(vv_); length > bar) n.w -= aside * (n.w.dot(aside) / (length * length));
         return;
       }
     }
@@ -186,21 +184,33 @@ class ClosedForm {
     depth = std::max(S(0), depth);
     Nearest border = solve(c_ - depth * best, false);
     border.free_s = inside.free_s, border.free_t = inside.free_t;
-    Result r = finish(ClosedFormStatus::overlapping, border, best, -depth, -depth - floor_, -depth + floor_, query);
+    const S at_most = D == 3 ? S(0) : -depth;  // in space the difference is flat
+    Result r = finish(ClosedFormStatus::overlapping, border, best, -depth, -depth - floor_, at_most + floor_, query);
     if (query == Query::distance) set_common_point(r, frame_, V(a0_ + inside.s * u_), V(a0_ - c_ + inside.t * v_), radius_a_, radius_b_);  // of the cores as they stand
     return r;
   }
 
+  const V& longer_one() const { return uu_ < vv_ ? v_ : u_; }
+  /// What of the shorter segment is across the longer one, which must have a length; taken twice, so that none of the rounding lies along it. Of nearly parallel ones u x v is next to all rounding, and the
+  /// difference would reach far along it; what is across the longer one and this is across the shorter one, too, but for the rounding of its length.
+  V of_shorter_aside() const {
+    const V& longer = longer_one();
+    const S squared = longer.dot(longer);
+    V aside = uu_ < vv_ ? u_ : v_;
+    for (int twice = 0; twice < 2; ++twice) aside -= longer * (longer.dot(aside) / squared);
+    return aside;
+  }
   /// Across both segments, or the longer one where they are parallel.
   V normal_in_space() const requires(D == 3) {
-    const V n = u_.cross(v_);
-    constexpr S rounding = 64 * std::numeric_limits<S>::epsilon();
-    if (n.dot(n) > rounding * rounding * uu_ * vv_) return n.normalized();
-    const V& longer = uu_ < vv_ ? v_ : u_;
+    const V& longer = longer_one();
     if (longer.isZero(0)) return V::Unit(0);
-    Eigen::Index least = 0;
-    longer.cwiseAbs().minCoeff(&least);
-    return longer.cross(V(V::Unit(least))).normalized();
+    V aside = of_shorter_aside();
+    if (aside.isZero(0)) {
+      Eigen::Index least = 0;
+      longer.cwiseAbs().minCoeff(&least);
+      aside = V::Unit(least);
+    }
+    return longer.cross(aside).stableNormalized();
   }
 
   /// `core_distance`: of the cores, signed; `lower` and `upper` its bounds.

@@ -105,6 +105,15 @@ class EllipsoidDepth {
   /// Goes on from what others found: the axes that were looked along, of which this was the best.
   void go_on(int looked, const V& best) { looked_ = looked, look_along(best); }
 
+  /// The points of a depth that others know, by Newton's method from its axis: near it heights are the same to the last bits where points are not yet.
+  OutlineDepth<D, S> sharpened(const OutlineDepth<D, S>& known, S tolerance) {
+    tolerance_ = tolerance, least_ = known.sat.depth - known.slack;
+    go_on(known.sat.iterations, known.sat.normal);
+    OutlineDepth<D, S> found = answer();
+    found.sat.status = known.sat.status;
+    return found;
+  }
+
   /// `overlapping` where the depth is known within rounding, or the tolerance, a part of it. With some 16 supports for each of `most`, of which EPA's steps would take longer.
   OutlineDepth<D, S> run(S tolerance, int most_steps) {
     const std::int64_t most = looked_ + 16 * std::int64_t{most_steps};
@@ -165,6 +174,17 @@ class EllipsoidDepth {
 
   void update(const Squares& squares) { least_ = squares.empty() ? settled_ : std::min(settled_, squares.least()); }
 
+  /// How far the next of Newton's steps may lead. Along a valley's bottom, which bends next to nothing, a step leads too far, or, when it may not, not far enough: then to where the slope along it
+  /// vanishes, by the secant of both ends'.
+  static S next_reach(const Model& from, const Model& to, bool better, S most) {
+    const V step = to.direction() - from.direction();
+    const S length = step.norm(), fell = -across(from).dot(step), falls = -across(to).dot(step);
+    if (better && length < most / 2) return most;
+    const S level = fell > falls ? length * fell / (fell - falls) : 8 * length;
+    return better ? std::clamp(std::abs(level - length), length / 1024, 8 * length) : std::clamp(level, length / 1024, length / 2);
+  }
+  static V across(const Model& model) { return model.support() - model.direction() * model.direction().dot(model.support()); }
+
   /// The least height's slope is what its points are off by: Newton's method takes that away, where heights no longer differ but for rounding.
   OutlineDepth<D, S> answer() {
     constexpr int steps = 12;
@@ -173,7 +193,7 @@ class EllipsoidDepth {
       const Touch before = best_, next = look_along(before.model.step_down(most));
       const bool better = next.model.slope() < before.model.slope() && next.model.height() <= before.model.height() + floor_ / 2;
       best_ = better ? next : before;
-      if (!better) most /= 8;  // along a valley's bottom, which bends next to nothing, a step leads too far
+      most = next_reach(before.model, next.model, better, most);
     }
     const Touch found = best_;
     look_along(V(found.model.direction()));  // so that the last axis is the answer's

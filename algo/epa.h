@@ -160,7 +160,7 @@ class Epa {
       if (wide && miss > floor_) take(asked_first, true);
       for (const Face& face : polytope_.faces()) {
         if (!(miss > floor_)) break;
-        if (!face.removed && face.distance <= best_height_ + floor_ && face.normal.dot(result_.normal) >= S(0.999)) take(face.vertices, wide);
+        if (!face.removed && face.distance <= best_height_ + 8 * floor_ && face.normal.dot(result_.normal) >= S(0.999)) take(face.vertices, wide);
       }
     }
     for (int i = 0; i < D; ++i) {
@@ -170,11 +170,12 @@ class Epa {
     if (difference_.polytope()) return;
     // Of round bodies these lie within the chords; each body reaches as far along the normal as its support did.
     const V& n = result_.normal;
-    result_.point_a += n * (reach_a_ - n.dot(result_.point_a));
-    result_.point_b += n * (reach_a_ - best_height_ - n.dot(result_.point_b));
-    // Where the origin's projection lies beside the face, they are off across the normal too. The points of the support lie on their bodies, and may be off by less.
+    const S short_a = reach_a_ - n.dot(result_.point_a), short_b = reach_a_ - best_height_ - n.dot(result_.point_b);
+    result_.point_a += n * short_a, result_.point_b += n * short_b;
+    // Where the origin's projection lies beside the face, they are off across the normal too; where all faces there are slivers, that is rounding's, they lie far within. The points of the support lie on
+    // their bodies, and may be off by less.
     const auto off = [&](const V& a, const V& b) { return V(a - b - n * best_height_).norm(); };
-    if (off(best_.a, best_.b) < off(result_.point_a, result_.point_b)) result_.point_a = best_.a, result_.point_b = best_.b;
+    if (off(best_.a, best_.b) < off(result_.point_a, result_.point_b) + std::abs(short_a) + std::abs(short_b)) result_.point_a = best_.a, result_.point_b = best_.b;
   }
 
   /// How far from the origin a point of A - B lies: the plane of a face alone would be nearer, where the origin is beside the face.

@@ -19,66 +19,12 @@
 #include <utility>
 
 #include "algo/gjk_options.h"
+#include "algo/gjk_steps.h"
 #include "algo/leading_direction.h"
-#include "algo/signed_volumes.h"
-#include "algo/simplex.h"
 #include "algo/trace.h"
 #include "shapes/triple.h"
 
 namespace gjkdbg {
-
-template <int D, class S>
-struct GjkResult {
-  GjkStatus status = GjkStatus::converged;
-  int iterations = 0;
-  /// The feature nearest the origin, with weights; when enclosed all D + 1 vertices, with the origin's weights unless the signed distance was
-  /// asked for: whoever goes on from there has no use for them, but where rounding ends that (`weigh_enclosing`).
-  Simplex<D, S> simplex;
-  Vector<D, S> v = Vector<D, S>::Zero();   ///< closest point of the cores' difference (zero when enclosed)
-  S distance = 0;                          ///< |v|
-  S lower_bound = -std::numeric_limits<S>::infinity();  ///< of the signed distance of the cores
-  S upper_bound = std::numeric_limits<S>::infinity();
-
-  bool cores_overlap() const { return status == GjkStatus::enclosed || status == GjkStatus::touching; }
-};
-
-/// The feature of `size` vertices that is nearest the origin.
-template <int D, class S>
-using Opinion = ClosestFeature<D, S> (*)(const Vector<D, S>* w, int size);
-
-/// That the origin is inside is a proof, and has to be exact: where another sub-algorithm says so, signed volumes have the last word.
-template <class SubAlgorithm, int D, class S>
-ClosestFeature<D, S> opinion_of(const Vector<D, S>* w, int size) {
-  const ClosestFeature<D, S> feature = SubAlgorithm::closest(w, size);
-  if constexpr (!std::is_same_v<SubAlgorithm, SignedVolumes<D, S>>)
-    if (feature.enclosed) return SignedVolumes<D, S>::closest(w, size);
-  return feature;
-}
-
-/// What rarely happens, apart from the loop's own numbers, which stay in registers as long as nothing else is shown where they lie.
-template <int D, class S>
-struct GjkSteps {
-  using V = Vector<D, S>;
-  int on_the_spot = 0;
-  V stepped_to;  ///< by the last of these
-  ToldInLanes<S> lanes;
-
-  /// |v| must fall, and has not. Where the plane still turns but |v| falls by less than it rounds (a nearly flat part of A - B met at
-  /// a grazing angle), a few steps on the spot are allowed, not twice to the same.
-  [[gnu::noinline]] bool allowed(V before, S squared_before, V v, S v_squared, S rounding) {
-    if (v == before || (on_the_spot > 0 && v == stepped_to) || !(v_squared <= squared_before + rounding) || ++on_the_spot > 8) return false;
-    stepped_to = v;
-    return true;
-  }
-
-  /// A sub-algorithm's opinion of all vertices.
-  [[gnu::noinline]] static ClosestFeature<D, S> of_list(const Simplex<D, S>& simplex, Opinion<D, S> opinion) {
-    std::array<V, D + 1> w;
-    const int size = simplex.size();
-    for (int i = 0; i < size; ++i) w[i] = simplex[i].w;
-    return opinion(w.data(), size);
-  }
-};
 
 /// Grown: what is asked first of a simplex that has grown by a vertex, or void. leads: directions other than -v in any step, not in the first ones alone.
 template <class Difference, class Grown, class Trace, bool leads>
@@ -117,11 +63,13 @@ class Gjk {
           continue;
         }
       } else if (proven(point)) {
-        break;
+        if (stands(true)) break;
+        continue;
       }
       if constexpr (leads) leading_.met(point);
       if (!reduce() && !reduce_again()) {
-        places_ &= ~(1u << newest_), status_ = GjkStatus::stalled;
+        places_ &= ~(1u << newest_), status_ = stalled();
+        (void)stands(true);
         break;
       }
     }
@@ -235,6 +183,26 @@ class Gjk {
     weighed_ = true;
   }
 
+  /// Whether |v| bounds the distance: the point of A - B that the weights make is as near. If not, v is taken in twice the precision; true where that has led no farther before.
+  /// `asked`: the newest point was asked for since the simplex was cut down, and counts as well.
+  [[gnu::always_inline]] bool stands(bool asked) {
+    if (stands_ || enclosed_ || options_.goal == GjkGoal::intersect) return true;
+    weigh();
+    const S most = distance_ + floor_;
+    stands_ = result_.simplex.weighted(places_).squaredNorm() <= most * most;
+    if (!stands_) [[unlikely]] correct(asked);
+    return stands_;
+  }
+  [[gnu::noinline]] void correct(bool asked) {
+    if (asked) places_ |= 1u << newest_;
+    if constexpr (traced<Trace>) before_ = vertex_numbers();
+    result_.simplex.places = places_;
+    const V corrected = steps_.corrected(result_.simplex, floor_);
+    places_ = result_.simplex.places, stands_ = steps_.corrections > 3;
+    if constexpr (grows) Grown::forget(steps_.lanes);
+    advance_to(T::of(corrected), corrected.squaredNorm());
+  }
+
   /// Whether what is known settles the matter.
   [[gnu::always_inline]] bool ended() {
     if (enclosed_) return end_as(GjkStatus::enclosed);
@@ -253,23 +221,23 @@ class Gjk {
   [[gnu::always_inline]] bool proven(const Point& point) {
     if (options_.goal == GjkGoal::intersect && lower_bound_ > difference_.radius()) return end_as(GjkStatus::separated);
     const S gap = distance_ - plane_;
-    const bool met = gap <= options_.tolerance * distance_ + floor_ && (!straddles() || gap <= decisive() * distance_ + floor_);
+    within_tolerance_ = gap <= options_.tolerance * distance_ + floor_;
     if (options_.stopping != Stopping::bounds) {
-      if (rule_met(point.w)) return end_as(met ? GjkStatus::converged : GjkStatus::rule_met);
-    } else if (met) {
+      if (rule_met(point.w)) return end_as(within_tolerance_ ? GjkStatus::converged : GjkStatus::rule_met);
+    } else if (within_tolerance_ && (gap <= floor_ || !straddles())) {
       return end_as(GjkStatus::converged);
     }
-    return gap <= S(1e-3) * distance_ + 1000 * floor_ && holds(point.w) && end_as(GjkStatus::stalled);
+    return gap <= S(1e-3) * distance_ + 1000 * floor_ && holds(point.w) && end_as(stalled());
   }
 
-  /// Whether the bounds leave open if the radii reach across the distance. (Without radii a plane that is met at all has the origin outside.)
+  /// Whether the bounds leave open if the radii reach across the distance. (Without radii a plane that is met at all has the origin outside.) Then only rounding ends the search, whatever the tolerance.
   [[gnu::always_inline]] bool straddles() const {
     const S radius = difference_.radius();
     return radius > 0 && lower_bound_ <= radius && distance_ + floor_ > radius;
   }
 
-  /// The gap that then is none. Of a yes or no nothing but rounding is: what could be decided in this precision is the answer.
-  [[gnu::always_inline]] S decisive() const { return options_.goal == GjkGoal::intersect ? S(0) : Options::decisive; }
+  /// Where nothing brings v nearer: a yes or no is open then, a distance within the tolerance is known.
+  [[gnu::always_inline]] GjkStatus stalled() const { return within_tolerance_ && options_.goal != GjkGoal::intersect ? GjkStatus::converged : GjkStatus::stalled; }
 
   /// Other libraries' rules, as their sources have them (see Stopping); v.w and |v|^2 are not yet those of the next simplex.
   [[gnu::always_inline]] bool rule_met(const V& w) {
@@ -295,6 +263,7 @@ class Gjk {
 
   [[gnu::always_inline]] void finish() {
     if (!enclosed_ || options_.goal != GjkGoal::signed_distance) weigh();
+    (void)stands(false);
     result_.v = v();
     result_.status = status_, result_.iterations = iterations_, result_.simplex.places = places_;
     result_.distance = distance_, result_.lower_bound = lower_bound_, result_.upper_bound = distance_ + floor_;
@@ -348,7 +317,8 @@ class Gjk {
   T newest_w_{0, 0, 0};    ///< its w
   int grown_by_ = 0;       ///< that of the newest vertex in the simplex
   bool weighed_ = true;    ///< the simplex has its weights
-  bool enclosed_ = false;
+  bool enclosed_ = false, within_tolerance_ = false;
+  bool stands_ = false;  ///< it was asked of this v
   GjkStatus status_ = GjkStatus::converged;
   S last_squared_ = std::numeric_limits<S>::max();
   std::conditional_t<leads, Leading&, Leading> leading_;  ///< in its own place where it is shown to others, for its numbers are to stay in registers, too

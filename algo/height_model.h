@@ -136,6 +136,12 @@ class HeightModel {
 
   const V& direction() const { return d_; }
   S height() const { return height_; }
+  /// What A - B reaches farthest along d with: as high, and off d by the slope.
+  V support() const {
+    V w = height_ * d_;
+    for (std::size_t i = 0; i < at(across); ++i) w += slope_[i] * axes_[i];
+    return w;
+  }
   /// How far the support lies beside the direction.
   S slope() const { return across == 2 ? std::hypot(slope_[0], slope_[across - 1]) : std::abs(slope_[0]); }
 

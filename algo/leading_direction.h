@@ -116,7 +116,8 @@ class LeadingDirection<Difference, true> {
  private:
   bool found(V& d, S& length, const Progress& at) {
     if (by_newton()) return !options_.normalised && asked_in_vain_ < 3 && newton(d, length, at);
-    if (!accelerating_) return false;
+    constexpr int longest = 64;  // longer it circles about the answer of long bodies beside short ones, which -v comes to
+    if (!accelerating_ || at.iterations > longest) return false;
     d = options_.acceleration == Acceleration::polyak ? polyak(at) : nesterov(at), length = d.norm();
     return true;
   }

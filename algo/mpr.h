@@ -146,7 +146,10 @@ class Mpr {
       Point next;
       if (!query(n, next)) return MprStatus::separated;
       const S height = n.dot(next.w);
-      if (height - distance <= options_.tolerance * std::abs(height) + floor_) return MprStatus::converged;
+      if (height - distance <= options_.tolerance * std::abs(height) + floor_) {
+        if (!inside) lower_ = -reach_of_portal();
+        return MprStatus::converged;
+      }
       if (in_portal(next.w) || on_the_spot(n)) return inside ? MprStatus::stalled : give_up();
       replace(next);
     }
@@ -159,6 +162,16 @@ class Mpr {
     steps_on_the_spot_ = leaves > leaves_ ? 0 : steps_on_the_spot_ + 1;
     leaves_ = std::max(leaves_, leaves);
     return steps_on_the_spot_ > 8;
+  }
+
+  /// How far from the origin a point of A - B lies.
+  S reach_of_portal() const {
+    std::array<V, D> corners;
+    for (int i = 0; i < D; ++i) corners[i] = w(i);
+    const ClosestFeature<D, S> nearest = SignedVolumes<D, S>::closest(corners.data(), D);
+    V point = V::Zero();
+    for (int i = 0; i < nearest.count; ++i) point += nearest.weight[i] * corners[nearest.index[i]];
+    return point.norm();
   }
 
   /// Neither inside nor outside was proven: the depth cannot be told from zero.
@@ -185,14 +198,17 @@ class Mpr {
     return false;
   }
 
-  /// A sliver's: the normal is off by 9 u over the sine between two sides, the plane by that times how far the corners are, by far more than supports round.
+  /// A sliver's, by far more than supports round.
   bool plane_is_noise() const {
-    if constexpr (D == 3) {
-      const V p = w(1) - w(0), q = w(2) - w(0);
-      const S far = std::max({w(0).norm(), w(1).norm(), w(2).norm()});
-      return 16 * std::numeric_limits<S>::epsilon() * far * (p.norm() * q.norm()) > 1000 * floor_ * p.cross(q).norm();
-    }
+    if constexpr (D == 3) return plane_noise(w(1), w(2), w(0)) > 1000 * floor_;
     return false;
+  }
+  /// The normal of a plane through three points is off by 9 u over the sine between two sides, a line's by 2 u over its part of how far its points are; the plane by that times how far they are.
+  static S plane_noise(const V& x, const V& y, const V& corner) {
+    const V p = x - corner, q = y - corner;
+    const S far = std::max({x.norm(), y.norm(), corner.norm()}), off = 16 * std::numeric_limits<S>::epsilon() * far;
+    if constexpr (D == 3) return off * (p.norm() * q.norm()) / p.cross(q).norm();
+    return off * far / p.norm();
   }
 
   /// Whether the origin lies in the hull of v0 and the portal, by signs that are sure: on no face's outer side.
@@ -231,8 +247,11 @@ class Mpr {
   }
 
   /// The origin's distance from the boundary of the hull of v0 and the portal, which lies inside the difference: the depth is no less.
+  /// What the planes may be off by is taken off. Where nothing is left, the origin may lie beyond, and no farther than the portal is.
   S clearance(const V& normal, S distance) const {
     S least = distance;
+    if constexpr (D == 2) least -= plane_noise(w(1), w(1), w(0));
+    if constexpr (D == 3) least -= plane_noise(w(1), w(2), w(0));
     if constexpr (D > 1) {
       for (int i = 0; i < D; ++i) {
         const V &p = w((i + 1) % D), &q = w((i + 2) % D);
@@ -240,11 +259,11 @@ class Mpr {
         if constexpr (D == 2) n = V(p[1] - v0_[1], v0_[0] - p[0]);
         if constexpr (D == 3) n = (p - v0_).cross(q - v0_);
         if (n.dot(w(i) - v0_) > 0) n = -n;  // away from the vertex opposite
-        if (!(n.squaredNorm() > 0)) return 0;
-        least = std::min(least, S(n.stableNormalized().dot(v0_)));
+        if (!(n.squaredNorm() > 0)) return -reach_of_portal();
+        least = std::min(least, S(n.stableNormalized().dot(v0_)) - plane_noise(p, q, v0_));
       }
     }
-    return normal.allFinite() ? std::max(S(0), least) : S(0);
+    return normal.allFinite() && least > 0 ? least : -reach_of_portal();
   }
 
   // --- Supports, planes, the end -----------------------------------------------------------------------------------------
@@ -274,7 +293,7 @@ class Mpr {
       std::array<int, D> vertices;
       for (int i = 0; i < D; ++i) vertices[i] = portal_[i].vertex;
       trace_(PortalFound<V, Viewed>{result_.iterations, vertices, n, static_cast<double>(distance), static_cast<double>(-(upper_ + floor_)),
-                                    lower_ >= 0 ? static_cast<double>(2 * floor_ - lower_) : std::numeric_limits<double>::quiet_NaN()});
+                                    std::isfinite(lower_) ? static_cast<double>(2 * floor_ - lower_) : std::numeric_limits<double>::quiet_NaN()});
     }
   }
 
@@ -282,7 +301,7 @@ class Mpr {
     result_.status = status;
     result_.decided = status != MprStatus::flat && !unproven_ && (status != MprStatus::iteration_limit || portal_size_ == D);
     result_.depth = upper_ == 0 ? S(0) : upper_;
-    result_.lower_bound = std::max(S(0), lower_) - 2 * floor_;  // what is taken for the inner side may be beyond by a floor
+    result_.lower_bound = (std::isfinite(lower_) ? lower_ : S(0)) - 2 * floor_;  // what is taken for the inner side may be beyond by a floor
     result_.upper_bound = upper_ + floor_;
     leave_at_the_portal();
     if (options_.depth && result_.overlapping() && status != MprStatus::flat) lie_on_the_way_out();
@@ -333,7 +352,7 @@ class Mpr {
   MprResult<D, S> result_;
   S leaves_ = 0;
   int steps_on_the_spot_ = 0;
-  S upper_ = std::numeric_limits<S>::infinity(), lower_ = -1;
+  S upper_ = std::numeric_limits<S>::infinity(), lower_ = -std::numeric_limits<S>::infinity();
 };
 
 /// Runs MPR on a difference of bodies. Frame of body 0.

@@ -87,9 +87,10 @@ class Projections {
         const V upright = upright_way(v);
         const S height = plane(upright, upright.norm());
         lower_ = std::max(lower_, height - floor_);
-        set_normal(v, distance, upright);
-        const S share = yes_or_no ? S(0) : tolerance_;  // a yes or no that is open between these bounds is not decided by the nearer of them
-        if (distance - height <= share * distance + floor_ || lower_ > enough) return ProjectionsStatus::separated;
+        // A yes or no that is open between these bounds is not decided by the nearer of them.
+        const S radius = difference_.radius(), share = yes_or_no || (radius > 0 && lower_ <= radius && distance + floor_ > radius) ? S(0) : tolerance_;
+        const S gap = share * distance + floor_;
+        if (lower_ > enough || (distance - height <= gap && (yes_or_no || normal_proves(v, distance, upright, gap)))) return ProjectionsStatus::separated;
         if (moved <= floor_ * floor_) return ProjectionsStatus::undecided;
       }
       step(g);
@@ -127,12 +128,13 @@ class Projections {
     return upright.dot(upright) > S(0.5) * v.dot(v) ? upright : v;
   }
 
-  /// The plane proves the distance to the tolerance t, and leans by sqrt(2 t) against v at most: too far for the points, which lie along v. Theirs is the normal, unless
-  /// rounding is all that v has more.
-  void set_normal(const V& v, S distance, const V& upright) {
-    const V aside = v - upright;
-    if (aside.dot(aside) <= floor_ * floor_) result_.nearest.normal = -upright / upright.norm();
-    else result_.nearest.normal = -v / distance;
+  /// The plane across `upright` proves the distance to the tolerance t, and leans by sqrt(2 t) against v at most: too far for the points, which lie along v. Theirs is the normal, unless rounding is all
+  /// that v has more; then its own plane must prove as much. It does where it leans too little to count over the bodies' length.
+  bool normal_proves(const V& v, S distance, const V& upright, S gap) {
+    const S aside = (v - upright).norm();
+    if (aside <= floor_) return result_.nearest.normal = -upright / upright.norm(), true;
+    result_.nearest.normal = -v / distance;
+    return aside * reach_ <= gap * distance || distance - plane(v, distance) <= gap;
   }
 
   S plane(const V& v, S distance) {

@@ -31,6 +31,7 @@
 #include <numbers>
 #include <optional>
 
+#include "algo/bent_sum.h"
 #include "algo/ellipsoid_depth.h"
 #include "algo/outline_arcs.h"
 #include "algo/revolution_sat.h"
@@ -181,7 +182,9 @@ std::optional<OutlineDepth<3, typename Difference::S>> tilted_axes(Difference& d
   if constexpr (traced<Trace>) trace(SatBegan<V, Viewed>{0, 0, 0});
   TiltedAxes<Difference, Trace> outline(difference, *pair, trace);
   const SatResult<3, S> by_sections = outline.run(tolerance, most);
-  const OutlineDepth<3, S> found{by_sections, std::nullopt, outline.slack()};
+  OutlineDepth<3, S> found{by_sections, std::nullopt, outline.slack()};
+  if (by_sections.status == SatStatus::overlapping)
+    if (const auto bends = BentSum<S>::of(difference)) found = EllipsoidDepth(difference, *bends, outline_look(difference, trace)).sharpened(found, tolerance);
   if constexpr (traced<Trace>) trace(SatEnded<V, Viewed>{found.sat.iterations, found.sat.status, found.sat.normal, -static_cast<double>(found.sat.depth) - static_cast<double>(difference.radius())});
   return found;
 }

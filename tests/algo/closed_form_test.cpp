@@ -155,6 +155,33 @@ TEST(ClosedForm, NearlyParallelSegmentsThatNearlyMeet) {
   }
 }
 
+/// Two capsules about one middle, from parallel to crossed: their cores meet there, so the depth is the sum of the radii, whatever the cross product of nearly parallel axes is.
+TEST(ClosedForm, CapsulesAboutOneMiddle) {
+  std::mt19937 random(3);
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
+  for (int k = 0; k < 4000; ++k) {
+    SceneFile file;
+    file.scene.dimension = 3, file.scene.query = Query::penetration;
+    const Eigen::Vector3d axis = Eigen::Vector3d(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)).normalized(), place(uniform(-1, 1), uniform(-1, 1), 0);
+    const double turn = uniform(0, 3), tilt = k % 10 == 0 ? 0 : std::pow(10, -uniform(0, 17));
+    double radii = 0;
+    for (const double angle : {turn, turn + tilt}) {
+      const double radius = k % 3 == 0 ? 0 : uniform(0.1, 1);
+      Body body{"", {Capsule{radius, uniform(0.1, 3), 2}, 0}, identity_pose(3)};
+      body.pose.matrix = Eigen::AngleAxisd(angle, axis).toRotationMatrix(), body.pose.rotation = RotationMatrix{body.pose.matrix}, body.pose.position = place;
+      file.scene.bodies.push_back(body), radii += radius;
+    }
+    for (const Scalar scalar : {Scalar::double_precision, Scalar::float_precision}) {
+      file.method.name = MethodName::closed_form, file.method.scalar = scalar;
+      const Result r = record(file).result;
+      const double rounding = (scalar == Scalar::double_precision ? 1e-15 : 4e-7) * size_of(file.scene);
+      EXPECT_NEAR(*r.signed_distance, -radii, rounding) << k << ", tilt " << tilt;
+      EXPECT_LE(*r.lower_bound, -radii) << k << ", tilt " << tilt;
+      EXPECT_GE(*r.upper_bound, -radii) << k << ", tilt " << tilt;
+    }
+  }
+}
+
 TEST(ClosedForm, IsRefusedWhereThereIsNone) {
   SegmentPairs random;
   Scene scene = random.scene(3, 1);
