@@ -47,32 +47,34 @@ class Gjk {
     trace_(GjkBegan<V, Viewed>{options_.direction});
     if (options_.kept.empty()) begin();
     else keep();
-    while (!ended()) {
-      ++iterations_;
-      T d = -v_;
-      S length = distance_;
-      const bool led = leading_.next(d, length, {iterations_, v_, v_squared_, distance_, lower_bound_ + floor_});
-      const Point& point = query(d, length);
-      if (led) {
-        if (options_.goal == GjkGoal::intersect && lower_bound_ > difference_.radius()) {
-          status_ = GjkStatus::separated;
+    bool asked = false;  // since the simplex was cut down
+    do {
+      while ((asked = !ended())) {
+        ++iterations_;
+        T d = -v_;
+        S length = distance_;
+        const bool led = leading_.next(d, length, {iterations_, v_, v_squared_, distance_, lower_bound_ + floor_});
+        const Point& point = query(d, length);
+        if (led) {
+          if (options_.goal == GjkGoal::intersect && lower_bound_ > difference_.radius()) {
+            status_ = GjkStatus::separated;
+            break;
+          }
+          if (brings_nothing(point)) {
+            leading_.in_vain();
+            continue;
+          }
+        } else if (proven(point)) {
           break;
         }
-        if (brings_nothing(point)) {
-          leading_.in_vain();
-          continue;
+        if constexpr (leads) leading_.met(point);
+        if (!reduce() && !reduce_again()) {
+          places_ &= ~(1u << newest_), status_ = stalled();
+          break;
         }
-      } else if (proven(point)) {
-        if (stands(true)) break;
-        continue;
       }
-      if constexpr (leads) leading_.met(point);
-      if (!reduce() && !reduce_again()) {
-        places_ &= ~(1u << newest_), status_ = stalled();
-        (void)stands(true);
-        break;
-      }
-    }
+      if (!enclosed_ || options_.goal != GjkGoal::signed_distance) weigh();
+    } while (!stands(asked));
     finish();
   }
 
@@ -186,21 +188,19 @@ class Gjk {
   /// Whether |v| bounds the distance: the point of A - B that the weights make is as near. If not, v is taken in twice the precision; true where that has led no farther before.
   /// `asked`: the newest point was asked for since the simplex was cut down, and counts as well.
   [[gnu::always_inline]] bool stands(bool asked) {
-    if (stands_ || enclosed_ || options_.goal == GjkGoal::intersect) return true;
-    weigh();
-    const S most = distance_ + floor_;
-    stands_ = result_.simplex.weighted(places_).squaredNorm() <= most * most;
-    if (!stands_) [[unlikely]] correct(asked);
-    return stands_;
-  }
-  [[gnu::noinline]] void correct(bool asked) {
+    constexpr S far = 256;  // squares of lengths: of a body that is no longer the formulas do not round apart by more than the floor
+    if (stands_ || enclosed_ || options_.goal == GjkGoal::intersect || (newest_w_.dot(newest_w_) <= far * v_squared_ && plane_ <= distance_)) [[likely]] return true;
     if (asked) places_ |= 1u << newest_;
     if constexpr (traced<Trace>) before_ = vertex_numbers();
+    if (asked) places_ &= ~(1u << newest_);
     result_.simplex.places = places_;
-    const V corrected = steps_.corrected(result_.simplex, floor_);
-    places_ = result_.simplex.places, stands_ = steps_.corrections > 3;
+    V corrected = v();
+    stands_ = steps_.within_reach(result_.simplex, asked ? newest_ : -1, corrected, distance_ + floor_, floor_);
+    if (corrected == v()) return true;
+    places_ = result_.simplex.places;
     if constexpr (grows) Grown::forget(steps_.lanes);
     advance_to(T::of(corrected), corrected.squaredNorm());
+    return stands_;
   }
 
   /// Whether what is known settles the matter.
@@ -262,8 +262,6 @@ class Gjk {
   }
 
   [[gnu::always_inline]] void finish() {
-    if (!enclosed_ || options_.goal != GjkGoal::signed_distance) weigh();
-    (void)stands(false);
     result_.v = v();
     result_.status = status_, result_.iterations = iterations_, result_.simplex.places = places_;
     result_.distance = distance_, result_.lower_bound = lower_bound_, result_.upper_bound = distance_ + floor_;

@@ -58,14 +58,17 @@ struct GjkSteps {
   }
 
   int corrections = 0;
-  /// v in twice the precision, and its weights. The formulas for v and for the weights round apart where the simplex is next to flat, a long body's beside a short one's: then v may lie nearer than any
-  /// point of it. Never nearer than the point that these weights make.
-  [[gnu::noinline]] V corrected(Simplex<D, S>& simplex, S floor) {
-    ++corrections;
+  /// Whether the point of A - B that the weights make is as near as v is said to be. The formulas for v and for the weights round apart where the simplex is next to flat, a long body's beside a short one's:
+  /// then v may lie nearer than any point of it. If so both are taken in twice the precision, of the point at the place `newest`, too, and v is never nearer than what the weights make. True where that was done
+  /// before and led no farther.
+  [[gnu::noinline]] bool within_reach(Simplex<D, S>& simplex, int newest, V& v, S most, S floor) {
+    if (simplex.point().squaredNorm() <= most * most) return true;
+    if (newest >= 0) simplex.places |= 1u << newest;
     const ClosestFeature<D, S> feature = of_list(simplex, WideClosestPoint<D, S>::of_boundary);
     simplex.reduce_to(feature);
-    const V at = simplex.weighted(simplex.places);
-    return at.norm() > feature.v.norm() + floor ? at : feature.v;
+    const V at = simplex.point();
+    v = at.norm() > feature.v.norm() + floor ? at : feature.v;
+    return ++corrections > 3;
   }
 
   /// A sub-algorithm's opinion of all vertices.

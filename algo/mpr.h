@@ -247,11 +247,13 @@ class Mpr {
   }
 
   /// The origin's distance from the boundary of the hull of v0 and the portal, which lies inside the difference: the depth is no less.
-  /// What the planes may be off by is taken off. Where nothing is left, the origin may lie beyond, and no farther than the portal is.
+  /// What the planes may be off by is taken off. Where nothing is left of the portal's, the origin may lie beyond, no farther than the portal is; of a side's,
+  /// the ray passes it all the same.
   S clearance(const V& normal, S distance) const {
     S least = distance;
     if constexpr (D == 2) least -= plane_noise(w(1), w(1), w(0));
     if constexpr (D == 3) least -= plane_noise(w(1), w(2), w(0));
+    const bool beyond = !(least > 0);
     if constexpr (D > 1) {
       for (int i = 0; i < D; ++i) {
         const V &p = w((i + 1) % D), &q = w((i + 2) % D);
@@ -259,11 +261,12 @@ class Mpr {
         if constexpr (D == 2) n = V(p[1] - v0_[1], v0_[0] - p[0]);
         if constexpr (D == 3) n = (p - v0_).cross(q - v0_);
         if (n.dot(w(i) - v0_) > 0) n = -n;  // away from the vertex opposite
-        if (!(n.squaredNorm() > 0)) return -reach_of_portal();
+        if (!(n.squaredNorm() > 0)) return beyond ? -reach_of_portal() : S(0);
         least = std::min(least, S(n.stableNormalized().dot(v0_)) - plane_noise(p, q, v0_));
       }
     }
-    return normal.allFinite() && least > 0 ? least : -reach_of_portal();
+    if (beyond) return -reach_of_portal();
+    return normal.allFinite() && least > 0 ? least : S(0);
   }
 
   // --- Supports, planes, the end -----------------------------------------------------------------------------------------

@@ -67,13 +67,15 @@ struct Simplex {
     places = kept;
   }
 
-  Vector<D, S> point_a() const { return weighted(places, &Point::a); }  ///< sum weight_i a_i
-  Vector<D, S> point_b() const { return weighted(places, &Point::b); }
-  /// Of the vertices of these places, one at least, by their weights.
-  Vector<D, S> weighted(unsigned among, Vector<D, S> Point::*member = &Point::w) const {
-    int at = std::countr_zero(among);
+  Vector<D, S> point_a() const { return weighted(&Point::a); }  ///< sum weight_i a_i
+  Vector<D, S> point_b() const { return weighted(&Point::b); }
+  Vector<D, S> point() const { return weighted(&Point::w); }
+
+ private:
+  Vector<D, S> weighted(Vector<D, S> Point::*member) const {
+    int at = std::countr_zero(places);
     Vector<D, S> sum = weights[at] * (points[at].*member);
-    for (unsigned left = among & (among - 1); left != 0; left &= left - 1) at = std::countr_zero(left), sum += weights[at] * (points[at].*member);
+    for (unsigned left = places & (places - 1); left != 0; left &= left - 1) at = std::countr_zero(left), sum += weights[at] * (points[at].*member);
     return sum;
   }
 };
