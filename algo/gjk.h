@@ -6,7 +6,8 @@
 //   w = support(-v)                                      v.w / |v| is a lower one: all of A - B lies beyond that plane
 //   stop when the bounds meet; else add w, cut the simplex down to the feature nearest the origin
 // Deviations: |v| must fall in every step; where it does not, the simplex is judged again in twice the precision and,
-// if that does not help, the loop ends as `stalled` with honest bounds. Bounds include the rounding floor.
+// if that does not help, the loop ends as `stalled` with honest bounds. Bounds include the rounding floor. At the end |v| must be that of a point of A - B, or v is taken in twice the precision and the loop goes
+// on. Whether radii reach across the distance is told to the floor, whatever the tolerance.
 // Directions may carry Nesterov's momentum (Montaut et al., section IV): fewer steps where curvature is small; or be Newton's (algo/newton_direction.h);
 // or be smoothed in the first steps (algo/leading_direction.h): fewer steps of polytopes.
 // The sub-algorithm is a policy: ClosestFeature<D, S> closest(const V* w, int size), called by its address, so that the loop is compiled once for all of them;

@@ -19,7 +19,7 @@ enum class GjkGoal {
 template <int D, class S>
 struct GjkOptions {
   GjkGoal goal = GjkGoal::signed_distance;
-  /// Where a distance is asked for: the gap of the bounds, as a share of it, at which bodies that may or may not touch are told apart, however coarse `tolerance` is.
+  /// The tolerance for a yes or no, however coarse the one that is asked for.
   static constexpr S decisive = std::is_same_v<S, double> ? S(1e-10) : S(1e-4);
   S tolerance = S(1e-12);  ///< relative gap of the bounds at which the loop ends
   int max_iterations = 512;
