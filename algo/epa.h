@@ -33,7 +33,7 @@ class Epa {
         floor_(difference.rounding_floor()) {}
 
   EpaResult<D, S> run(const Simplex<D, S>& simplex) {
-    polytope_.clear();
+    polytope_.clear(floor_);
     EpaStart<Difference, Trace> start(difference_, polytope_, trace_);
     if (!start.run(simplex)) return finish_flat(simplex, start.flat());
     if (!enclose_origin()) return finish(EpaStatus::separated);
@@ -206,7 +206,7 @@ class Epa {
     events.clear();
     vertices.resize(faces.size());
     for (std::size_t i = 0; i < faces.size(); ++i) {
-      const Face& face = polytope_.faces()[faces[i]];
+      const Face face = polytope_.sharpened(faces[i]);
       for (int k = 0; k < D; ++k) vertices[i][k] = vertex_number(face.vertices[k]);
       events.push_back({faces[i], std::span<const int>(vertices[i]), face.normal, face.distance});
     }

@@ -129,7 +129,7 @@ class EpaStart {
     if (polytope_.start_octahedron({polytope_.add_point(simplex[top]), polytope_.add_point(simplex[bottom])}, numbers, floor_)) return true;
     std::array<Point, 4> around;
     std::copy_n(polytope_.points().begin(), 4, around.begin());
-    polytope_.clear();
+    polytope_.clear(floor_);
     start_from(simplex);
     for (const Point& point : around) {
       const int number = polytope_.add_point(point), face = polytope_.face_below(number, 64 * floor_);

@@ -40,7 +40,9 @@ class Polytope {
   Polytope(const Polytope&) = delete;  // growth_ looks into removed_
   Polytope& operator=(const Polytope&) = delete;
 
-  void clear() {
+  /// `allowed`: what rounding may hide of the distance of a face that `nearest` returns, and of what makes it the nearest.
+  void clear(S allowed) {
+    allowed_ = allowed;
     std::fill_n(nearness_.begin(), (places_ + 3) / 4, nobody());
     count_ = places_ = size_ = 0, tidy_at_ = 64, reach_ = 0, growths_ = 0;
   }
@@ -64,9 +66,17 @@ class Polytope {
   /// use, unless they are plainly the corners of an octahedron that has the origin inside by more than `floor`.
   bool start_octahedron(const std::array<int, 2>& poles, const std::array<int, 4>& ring, S floor);
 
-  /// The face with the smallest signed distance. One look at all there are: they are few, and which of them is nearer is nothing a processor can
+  /// The face with the smallest signed distance; the plane of one whose own rounding might hide that is set anew, in twice the precision, before. One look at all there are: they are few, and which of them is nearer is nothing a processor can
   /// guess, as it would have to in a heap. -1 when no face is left.
   int nearest();
+
+  /// A face as `nearest` would return it.
+  Face sharpened(int number) const {
+    Face face = faces_[number], plain = face;
+    if constexpr (D == 3)
+      if (set_plane<D, S>(plain, points_.data(), rounding()) > 0) set_widely(face);
+    return face;
+  }
 
   /// A face that p lies outside of, by more than `margin`; -1 when there is none.
   int face_below(int p, S margin) const;
@@ -85,6 +95,7 @@ class Polytope {
   const V& at(int i) const { return points_[i].w; }
   /// Of a point above a face's plane: see `sees`.
   S rounding_of_height() const { return 32 * std::numeric_limits<S>::epsilon() / thin * reach_; }
+  void set_widely(Face& face) const { set_plane_widely<S>(face, at(face.vertices[0]), at(face.vertices[1]), at(face.vertices[2]), at(face.vertices[2])); }
   void make_room();
   void add_face(const std::array<int, D>& vertices, const std::array<int, D>& neighbours);
   int add_without_plane(const std::array<int, D>& vertices, const std::array<int, D>& neighbours);
@@ -96,8 +107,9 @@ class Polytope {
     return four;
   }
   void set_nearness(std::size_t place, S nearness) { nearness_[place / 4].set(place % 4, nearness); }
-  /// To `nearest`; one without area is asked for as well, but last.
-  void offer(const Face& face) { set_nearness(face.place, -std::min(face.distance, std::numeric_limits<S>::max())); }
+  PlaneRounding<S> rounding() const { return {allowed_ * allowed_, rounding_of_height()}; }
+  /// To `nearest`, as the distance that it has at least; one without area is asked for as well, but last.
+  void offer(const Face& face, S off) { set_nearness(face.place, -std::min(face.distance - off, std::numeric_limits<S>::max())); }
   void take_place(Face& face, int number) {
     face.place = static_cast<std::uint32_t>(places_);
     numbers_[places_++] = number;
@@ -111,6 +123,7 @@ class Polytope {
   std::vector<Point> points_;
   std::size_t size_ = 0;  ///< of points_
   std::vector<int> met_;  ///< 3D: by point: the growth in whose horizon it was last
+  S allowed_ = 0;
   S reach_ = 0;           ///< largest coordinate of a point, in magnitude
 
   // Room for what the next growth may add, so that nothing asks on the way and nothing moves in memory.
@@ -149,10 +162,17 @@ bool Polytope<D, S>::sees(int p, const Face& face) const {
 template <int D, class S>
 int Polytope<D, S>::nearest() {
   if (places_ >= tidy_at_) forget_removed();
-  GreatestOfFours<S> nearness;
-  for (std::size_t i = 0; 4 * i < places_; ++i) nearness.take(nearness_[i]);
-  const auto found = nearness.found();
-  return found.value > gone ? numbers_[found.place] : -1;
+  while (true) {
+    GreatestOfFours<S> nearness;
+    for (std::size_t i = 0; 4 * i < places_; ++i) nearness.take(nearness_[i]);
+    const auto found = nearness.found();
+    if (!(found.value > gone)) return -1;
+    const int number = numbers_[found.place];
+    Face& face = faces_[number];
+    if (!(face.distance + found.value > 0) || found.value == std::numeric_limits<S>::lowest()) return number;
+    if constexpr (D == 3) set_widely(face);  // no nearer than that: how far is it?
+    offer(face, 0);
+  }
 }
 
 /// Leaves the removed ones' places to the others, which keep their order. Which have been removed is nothing a processor can guess.
@@ -196,9 +216,9 @@ void Polytope<D, S>::add_face(const std::array<int, D>& vertices, const std::arr
   const int number = add_without_plane(vertices, neighbours);
   Face& face = faces_[number];
   if constexpr (D == 1) face.normal[0] = static_cast<S>(neighbours[0]);
-  set_plane<D, S>(face, points_.data());
+  const S off = set_plane<D, S>(face, points_.data(), rounding());
   take_place(face, number);
-  offer(face);
+  offer(face, off);
 }
 
 /// 3D: the planes of n faces from number `first` on, which are those of a fan around `apex` with ring_.
@@ -211,16 +231,13 @@ template <int D, class S>
 #ifdef GJKDBG_AVX2
   if constexpr (sizeof(S) == 8)
     if (__builtin_cpu_supports("avx2")) {
-      if (set_fan_by_avx2({points_.data(), ring_.data(), n, apex}, turn, faces, nearness)) return;
+      if (set_fan_by_avx2({points_.data(), ring_.data(), n, apex, rounding()}, turn, faces, nearness)) return;
       for (int i = 0; i < n; ++i)
-        if (!(faces[i].distance < std::numeric_limits<S>::infinity())) set_plane<D, S>(faces[i], points_.data()), offer(faces[i]);
+        if (!(faces[i].distance < std::numeric_limits<S>::infinity())) offer(faces[i], set_plane<D, S>(faces[i], points_.data(), rounding()));
       return;
     }
 #endif
-  for (int i = 0; i < n; ++i) {
-    set_plane<D, S>(faces[i], points_.data());
-    offer(faces[i]);
-  }
+  for (int i = 0; i < n; ++i) offer(faces[i], set_plane<D, S>(faces[i], points_.data(), rounding()));
 }
 
 template <int D, class S>
@@ -364,7 +381,8 @@ void Polytope<D, S>::undo_growth() {
   for (const int number : growth_.removed) {
     Face& face = faces_[number];
     face.removed = false;
-    offer(face);
+    Face plain = face;
+    offer(face, set_plane<D, S>(plain, points_.data(), rounding()));
     if constexpr (D == 3)
       for (int edge = 0; edge < 3; ++edge) faces_[face.neighbours[edge] >> 2].neighbours[face.neighbours[edge] & 3] = 4 * number + edge;
   }

@@ -37,7 +37,7 @@ void expect_sound(Polytope<D, double>& polytope) {
     const auto& face = faces[f];
     if (face.removed) continue;
     ++standing;
-    least = std::min(least, face.distance);
+    least = std::min(least, polytope.sharpened(static_cast<int>(f)).distance);
     used.insert(face.vertices.begin(), face.vertices.end());
     for (const auto& p : polytope.points()) ASSERT_LE(face.normal.dot(p.w) - face.distance, 1e-13);
     for (int i = 0; i < D; ++i) {
@@ -62,7 +62,7 @@ TEST(Polytope, PlanesOfAFanAreThoseOfItsFaces) {
 #ifdef GJKDBG_AVX2
   if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "needs AVX2";
   RandomScenes random(8);
-  int thin = 0;
+  int thin = 0, rounded = 0, exact = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     const int n = 3 + trial % 7;
     std::vector<SupportPoint<3, double>> points(1, point<3>(random_direction<3>(random)));
@@ -77,14 +77,17 @@ TEST(Polytope, PlanesOfAFanAreThoseOfItsFaces) {
       std::vector<PolytopeFace<3, double>> faces(static_cast<std::size_t>(n));
       std::vector<double> nearness(static_cast<std::size_t>(n) + 4, 7);
       bool all = true;
-      const bool said = set_fan_by_avx2({points.data(), ring.data(), n, 0}, turn, faces.data(), nearness.data());
+      const double allowed = trial % 2 == 0 ? 1e-15 : 1e-13;
+      const PlaneRounding<double> rounding{allowed * allowed, 1e-12};
+      const bool said = set_fan_by_avx2({points.data(), ring.data(), n, 0, rounding}, turn, faces.data(), nearness.data());
       for (std::size_t k = 0; k < faces.size(); ++k) {
         const V3 &p = points[0].w, from = points[k + 1].w, to = points[(k + 1) % faces.size() + 1].w;
         PolytopeFace<3, double> one;
-        const bool plain = turn == Turn::around_outer ? set_plane_plainly<double>(one, from - p, to - p, p) : set_plane_plainly<double>(one, to - p, from - p, p);
-        all &= plain, thin += !plain;
+        double off = 0;
+        const bool plain = turn == Turn::around_outer ? set_plane_plainly<double>(one, from - p, to - p, p, rounding, off) : set_plane_plainly<double>(one, to - p, from - p, p, rounding, off);
+        all &= plain, thin += !plain, rounded += off > 0, exact += plain && off == 0;
         ASSERT_EQ(plain, std::isfinite(faces[k].distance));
-        ASSERT_EQ(nearness[k], -faces[k].distance);
+        ASSERT_EQ(nearness[k], off - faces[k].distance);
         if (!plain) continue;
         ASSERT_EQ(faces[k].normal, one.normal);
         ASSERT_EQ(faces[k].distance, one.distance);
@@ -94,6 +97,8 @@ TEST(Polytope, PlanesOfAFanAreThoseOfItsFaces) {
     }
   }
   EXPECT_GT(thin, 500);
+  EXPECT_GT(rounded, 500);
+  EXPECT_GT(exact, 500);
 #else
   GTEST_SKIP() << "needs AVX2";
 #endif
@@ -105,7 +110,7 @@ void grow_from_random_points() {
   RandomScenes random(3);
   Polytope<D, double> polytope;
   for (int run = 0; run < 2; ++run) {
-    polytope.clear();
+    polytope.clear(1e-15);
     std::array<int, D + 1> simplex;
     for (int& i : simplex) i = polytope.add_point(point<D>(random_direction<D>(random)));
     polytope.start(simplex);
@@ -146,7 +151,7 @@ TEST(Polytope, StartsFromAnOctahedron) {
   int started = 0;
   for (int k = 0; k < 400 && !testing::Test::HasFatalFailure(); ++k) {
     const auto off = [&] { return V3(random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4)); };
-    polytope.clear();
+    polytope.clear(1e-15);
     if (!start_octahedron(polytope, V3(0, 0, 1) + off(), V3(0, 0, -1) + off(), {V3(1, 0, 0) + off(), V3(0, 1, 0) + off(), V3(-1, 0, 0) + off(), V3(0, -1, 0) + off()})) continue;
     ++started;
     expect_sound(polytope);
