@@ -189,8 +189,8 @@ class Gjk {
   /// Whether |v| bounds the distance: the point of A - B that the weights make is as near. If not, v is taken in twice the precision; true where that has led no farther before.
   /// `asked`: the newest point was asked for since the simplex was cut down, and counts as well.
   [[gnu::always_inline]] bool stands(bool asked) {
-    constexpr S far = 256;  // squares of lengths: of a body that is no longer the formulas do not round apart by more than the floor
-    if (stands_ || enclosed_ || options_.goal == GjkGoal::intersect || (newest_w_.dot(newest_w_) <= far * v_squared_ && plane_ <= distance_)) [[likely]] return true;
+    constexpr S near = 128 * std::numeric_limits<S>::epsilon();  // the floor is 8 of these times what a vertex is away at most: of ones no farther than 16 |v| the formulas do not round apart by more
+    if (stands_ || enclosed_ || options_.goal == GjkGoal::intersect || (floor_ <= near * distance_ && plane_ <= distance_)) [[likely]] return true;
     if (asked) places_ |= 1u << newest_;
     if constexpr (traced<Trace>) before_ = vertex_numbers();
     if (asked) places_ &= ~(1u << newest_);
