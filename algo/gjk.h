@@ -139,16 +139,16 @@ class Gjk {
   /// The second opinion, in twice the precision.
   [[gnu::always_inline]] bool reduce_again() {
     places_ |= 1u << newest_;
-    return accept(of_list(WideClosestPoint<D, S>::of_boundary));
+    return accept(of_list(WideClosestPoint<D, S>::of_boundary), true);
   }
   [[gnu::always_inline]] Feature of_list(Opinion<D, S> opinion) const {
     result_.simplex.places = places_;
     return GjkSteps<D, S>::of_list(result_.simplex, opinion);
   }
 
-  [[gnu::always_inline]] bool accept(const Feature& feature) {
+  [[gnu::always_inline]] bool accept(const Feature& feature, bool wide = false) {
     if (feature.enclosed && lower_bound_ > 0) return false;  // a support plane has shown the origin outside: rounding speaks
-    if (!feature.enclosed && !falls_to(T::of(feature.v), feature.v_squared)) return false;
+    if (!feature.enclosed && !falls_to(T::of(feature.v), feature.v_squared, wide)) return false;
     if constexpr (traced<Trace>) before_ = vertex_numbers();
     result_.simplex.reduce_to(feature);
     places_ = result_.simplex.places;
@@ -167,9 +167,11 @@ class Gjk {
     advance_to(nearest.v, nearest.v_squared);
     return true;
   }
-  /// Newton's directions bring |v| to its least before it falls by no more than it rounds, where |v| is known to a floor only.
-  [[gnu::always_inline]] bool falls_to(const T& v, S v_squared) {
+  /// Whether that is nearer, or as near to rounding, and known in twice the precision: elsewhere steps on the spot may go around in circles. But Newton's directions bring |v| to its least before
+  /// it falls by no more than it rounds, where |v| is known to a floor only.
+  [[gnu::always_inline]] bool falls_to(const T& v, S v_squared, bool wide = false) {
     if (v_squared < v_squared_) [[likely]] return true;
+    if (!wide && !leading_.by_newton()) return false;
     const S rounding = leading_.by_newton() ? 2 * distance_ * floor_ : 8 * std::numeric_limits<S>::epsilon() * v_squared_;
     return steps_.allowed(vector(v_), v_squared_, vector(v), v_squared, rounding);
   }
@@ -228,7 +230,7 @@ class Gjk {
     } else if (within_tolerance_ && (gap <= floor_ || !straddles())) {
       return end_as(GjkStatus::converged);
     }
-    return gap <= S(1e-3) * distance_ + 1000 * floor_ && holds(point.w) && end_as(stalled());
+    return gap <= floor_ && holds(point.w) && end_as(stalled());
   }
 
   /// Whether the bounds leave open if the radii reach across the distance. (Without radii a plane that is met at all has the origin outside.) Then only rounding ends the search, whatever the tolerance.
