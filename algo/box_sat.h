@@ -78,7 +78,7 @@ class BoxSat {
   BoxSat(Difference& difference, const BoxCore<D, S>& a, const BoxCore<D, S>& b, Trace& trace)
       : difference_(difference), trace_(trace), floor_(difference.rounding_floor()), center_(a.center()), axes_(axes_of(difference, a, b, center_)) {}
 
-  /// `enough`: the separation that needs no more, >= 0; infinite where the distance is asked for.
+  /// Ends at the first gap, which is measured unless it is wider than `enough`, >= 0; infinite where the distance or depth is asked for: then at once.
   const SatResult<D, S>& run(S enough) {
     trace_(SatBegan<V, Viewed>{D, D, D == 3 ? 9 : 0});
     constexpr auto all = std::make_integer_sequence<int, Axes::axes>{};
@@ -88,7 +88,7 @@ class BoxSat {
       if constexpr (traced<Trace>) look_along(enough, D == 3 && found.axes == 2 * D ? 2 * D : Axes::axes, all);
       take(found);
     } else {
-      look_along(enough + floor_, Axes::axes, all);
+      look_along(floor_, Axes::axes, all);
       result_.depth = -widest_;
       result_.status = widest_ > floor_ ? SatStatus::separated : SatStatus::overlapping;
       if (widest_ > floor_ && widest_ <= enough + floor_) take(axes_.points(floor_));

@@ -44,9 +44,9 @@ class PolygonSat {
   PolygonSat(Difference& difference, const Polygon<S>& a, const Polygon<S>& b, Trace& trace)
       : difference_(difference), trace_(trace), floor_(difference.rounding_floor()), pair_{a, b, difference.rotation(), difference.position()} {}
 
-  /// `enough`: the separation that needs no more, >= 0; infinite where the distance is asked for.
+  /// Ends at the first gap, which is measured unless it is wider than `enough`, >= 0; infinite where the distance or depth is asked for: then along all edges.
   [[gnu::flatten]] const SatResult<2, S>& run(S enough) {
-    enough_ = enough + floor_;
+    ends_at_ = std::isinf(enough) ? enough : floor_;
     trace_(SatBegan<V, Viewed>{pair_.a.size(), pair_.b.size(), 0});
     GreatestOfFours<S> widest;
     if (!separates<true>(widest)) separates<false>(widest);
@@ -83,7 +83,7 @@ class PolygonSat {
       const S apart = separation[static_cast<std::size_t>(i - first)];
       ++result_.iterations;
       if constexpr (traced<Trace>) trace_axis(source, source == AxisSource::face_a ? polygon.normal(i) : V(-(pair_.rotation * polygon.normal(i))), apart);
-      if (apart > enough_) return true;
+      if (apart > ends_at_) return true;
     }
     return false;
   }
@@ -155,7 +155,7 @@ class PolygonSat {
   Trace& trace_;
   const S floor_;
   const PolygonPair<S> pair_;
-  S enough_ = 0;
+  S ends_at_ = 0;
   S most_traced_ = -std::numeric_limits<S>::infinity();
   SatResult<2, S> result_;
   std::optional<SatWitnesses<2, S>> witnesses_;

@@ -125,9 +125,8 @@ class Sat {
     return most > S(1024) * std::numeric_limits<S>::epsilon();
   }
 
-  /// `enough`: the separation at which the search ends, >= 0.
-  SatResult<D, S> run(S enough) {
-    enough_ = enough;
+  /// Ends at the first gap: how wide it is, is nothing that faces and edges alone can tell.
+  SatResult<D, S> run() {
     const int pairs = static_cast<int>(edges_a_.size() * edges_b_.size());
     trace_(SatBegan<V, Viewed>{static_cast<int>(faces_a_.size()), static_cast<int>(faces_b_.size()), pairs});
     return finish(all_axes());
@@ -192,7 +191,7 @@ class Sat {
     ++result_.iterations;
     if (result_.iterations == 1 || height < result_.depth) result_.depth = height, result_.normal = n;
     if constexpr (traced<Trace>) tell_axis(trace_, result_.iterations, source, n, point, result_.depth, std::numeric_limits<S>::quiet_NaN(), floor_, static_cast<double>(difference_.radius()));
-    return -height > enough_ + floor_;
+    return -height > floor_;
   }
 
   SatResult<D, S> finish(SatStatus status) {
@@ -207,7 +206,6 @@ class Sat {
   Trace& trace_;
   const S floor_;
   const bool nearly_flat_;
-  S enough_ = 0;
   std::vector<V> &faces_a_, &faces_b_;
   std::vector<Edge3> &edges_a_, &edges_b_;
   SatResult<D, S> result_;

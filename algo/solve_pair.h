@@ -242,7 +242,7 @@ class PairSolver {
       return false;
     }
     const bool yes_or_no = query == Query::intersect;
-    const SatResult<D, S> found = sat.run(yes_or_no ? difference_.radius() : S(0));
+    const SatResult<D, S> found = sat.run();
     if (!sat_answers(found, yes_or_no)) return false;
     if (!yes_or_no) sat_witnesses(found, std::nullopt, query);
     return true;
@@ -339,6 +339,7 @@ class PairSolver {
     Difference same = difference_.moved(V::Zero());
     GjkOptions<D, S> options;
     options.goal = GjkGoal::distance;
+    axis_ = V::Zero();  // that of the least overlap leads past the origin
     options.direction = first_direction();
     NoTrace silent;
     GjkResult<D, S> nearest;

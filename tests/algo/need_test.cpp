@@ -1,12 +1,18 @@
 // No more than is asked: counters of what a query runs, and that a prepared query allocates nothing.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Warray-bounds"  // GCC holds that any bit of a simplex's places may be set
+#endif
 #include <gtest/gtest.h>
 
 #include <array>
 #include <atomic>
 #include <cstdlib>
 #include <new>
+#include <optional>
 
 #include "algo/prepared_pair.h"
+#include "algo/solve.h"
+#include "algo/solve_pair.h"
 #include "recordings/gallery.h"
 #include "recordings/recording.h"
 #include "shapes/error.h"
@@ -78,6 +84,86 @@ TEST(Need, AQueryComputesWhatItIsAskedAndNoMore) {
     EXPECT_FALSE(depth.contacts);
     EXPECT_LE(yes_no.supports, distance.supports);
     EXPECT_LE(distance.supports, depth.supports);
+  }
+}
+
+/// Of a method that takes such bodies.
+std::optional<int> supports_by(MethodName name, Scene scene, Query query) {
+  scene.query = query;
+  Method method;
+  method.name = name;
+  try {
+    return solve(scene, resolve_settings(method, scene)).support_calls;
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+/// Whatever the method: who asks for less waits no longer. But a point common to both, which only a distance query has, SAT does not come by: that is a short GJK more.
+TEST(Need, NoMethodTakesMoreForLess) {
+  RandomScenes random(33);
+  std::array<int, method_names.size()> counted{};
+  for (int k = 0; k < pairs_asked(600); ++k) {
+    const Scene scene = random.scene(1 + k % 3, static_cast<Family>(k / 3 % family_count), k % 2 == 0);
+    const bool apart = !solve(scene, resolve_settings({}, scene)).intersecting;
+    for (const MethodName name : {MethodName::gjk, MethodName::gjk_accelerated, MethodName::mpr, MethodName::sat, MethodName::projections, MethodName::fastest}) {
+      const auto yes_no = supports_by(name, scene, Query::intersect), distance = supports_by(name, scene, Query::distance), depth = supports_by(name, scene, Query::penetration);
+      if (!depth) continue;
+      ++counted[static_cast<std::size_t>(name)];
+      const int in_vain = name == MethodName::projections || name == MethodName::fastest ? 1 : 0;  // a plane that could have told, and did not
+      EXPECT_LE(*yes_no, *distance + in_vain) << "scene " << k << " by " << word_of(name);
+      const int common_point = apart ? 0 : *supports_by(MethodName::gjk, scene, Query::distance);
+      EXPECT_LE(*distance, *depth + (name == MethodName::sat || name == MethodName::fastest ? common_point : 0)) << "scene " << k << " by " << word_of(name);
+    }
+  }
+  for (const MethodName name : {MethodName::gjk, MethodName::mpr, MethodName::sat, MethodName::fastest}) EXPECT_GT(counted[static_cast<std::size_t>(name)], 100) << word_of(name);
+}
+
+/// A hull whose support mapping counts its dot products: one a vertex.
+struct CountedHull : Convex<3, double> {
+  using Convex<3, double>::Convex;
+  Eigen::Vector3d support(const Eigen::Vector3d& d) const {
+    ++calls, dots += vertices();
+    return Convex<3, double>::support(d);
+  }
+  mutable long calls = 0, dots = 0;
+};
+
+Shape hull_of(RandomScenes& random, int points) {
+  PointSet set{PointSetKind::hull, {}, ""};
+  for (int i = 0; i < points; ++i) set.points.push_back(AnyVector(Eigen::Vector3d(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1))));
+  return {set, 0};
+}
+
+/// What is counted is all there is: no support but those the result tells of, no vertex looked at twice for one, and fewer dot products for less.
+TEST(Need, DotProductsAreThoseOfTheSupports) {
+  RandomScenes random(34);
+  for (int k = 0; k < 300; ++k) {
+    const int size_a = 4 + k % 13, size_b = 4 + k % 7;
+    Scene scene;
+    scene.dimension = 3;
+    scene.bodies = {{"", hull_of(random, size_a), identity_pose(3)}, {"", hull_of(random, size_b), identity_pose(3)}};
+    for (int i = 0; i < 3; ++i) scene.bodies[1].pose.position[i] = random.uniform(-1, 1);
+    const CountedHull a(scene.bodies[0].shape), b(scene.bodies[1].shape);
+    const PlacedAxes<3> at_a(scene.bodies[0].pose), at_b(scene.bodies[1].pose);
+    for (const MethodName name : {MethodName::gjk, MethodName::gjk_accelerated, MethodName::mpr, MethodName::gjk_boolean}) {
+      long before = 0;
+      for (const Query query : {Query::intersect, Query::distance, Query::penetration}) {
+        if (name == MethodName::gjk_boolean && query != Query::intersect) continue;
+        scene.query = query;
+        Method method;
+        method.name = name;
+        const Settings settings = resolve_settings(method, scene);
+        a.calls = b.calls = a.dots = b.dots = 0;
+        NoTrace trace;
+        const Result r = PairSolver<3, double, NoTrace, CountedHull>(a, b, at_a, at_b, 1, settings, trace).run(query);
+        EXPECT_EQ(a.calls, r.support_calls) << k << " " << word_of(name) << " " << word_of(query);
+        EXPECT_EQ(b.calls, r.support_calls) << k << " " << word_of(name) << " " << word_of(query);
+        EXPECT_EQ(a.dots + b.dots, r.support_calls * (a.vertices() + b.vertices()));
+        EXPECT_LE(before, a.dots + b.dots) << k << " " << word_of(name) << " " << word_of(query);
+        before = a.dots + b.dots;
+      }
+    }
   }
 }
 
