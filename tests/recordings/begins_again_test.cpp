@@ -63,10 +63,10 @@ TEST(BeginsAgain, InLengthsOfItsOwn) {
 /// A mesh makes one run per triangle, however often GJK begins on it.
 TEST(BeginsAgain, OnTheSameTriangle) {
   const Recording box = run_of_scene(R"("dimension": 3, "query": "distance", "bodies": [
-    {"shape": {"type": "mesh", "points": [[-0.002, -0.00016498620450520633, -0.002], [-0.002, 0, 0], [-0.002, 0, 0.002], [0, 0, -0.002], [0, 0, 0], [0, -0.00012095625891388978, 0.002],
+    {"shape": {"type": "mesh", "points": [[-0.002, 0, -0.002], [-0.002, 0, 0], [-0.002, 0, 0.002], [0, 0, -0.002], [0, -0.00011532987740650824, 0], [0, 0, 0.002],
       [0.002, 0, -0.002], [0.002, 0, 0], [0.002, 0, 0.002]], "triangles": [[0, 1, 3], [1, 4, 3], [1, 2, 4], [2, 5, 4], [3, 4, 6], [4, 7, 6], [4, 5, 7], [5, 8, 7]]},
      "pose": {"rotation": {"quaternion": [0.17979279143368357, -0.7441794166274094, 0.4319933837073576, 0.47671088140469414]}}},
-    {"shape": {"type": "box", "half_extents": [0.0006716488782751263, 0, 0.0003]}, "pose": {"position": [-0.0002561415523124567, -0.0004612255079182986, 0.000849507231296163]}}],
+    {"shape": {"type": "box", "half_extents": [0.0008025592338983461, 0, 0.0005]}, "pose": {"position": [-0.00005184653420572553, -0.00032543601946791905, 0.0008063096322981285]}}],
     "method": {"closest_point": "voronoi", "scalar": "float"})");
   (void)first_again(box);
   for (std::size_t i = 0; i < box.events.size(); ++i) {

@@ -37,16 +37,12 @@ std::size_t first_of(const Recording& recording, std::size_t from = 0) {
 
 // --- What is right ----------------------------------------------------------------------------------------------------
 
-TEST(CheckRounding, ASearchThatGoesRoundOnTheSpotCostsAndNoMore) {
+TEST(CheckRounding, ASearchThatWentRoundOnTheSpotConverges) {
   const Recording recording = run_of(R"({"format": "gjk-scene", "version": 1, "dimension": 3, "query": "penetration", "bodies": [
     {"shape": {"type": "box", "half_extents": [0.842, 0.8, 0.252]}, "pose": {"rotation": {"quaternion": [0.0834834688460578, -0.8295956127423388, 0.40393218934191494, -0.37635145298183725]}, "position": [0, 0, 0]}},
     {"shape": {"type": "hull", "points": [[0, 0, 0], [0.7429265727908314, 0.21007774399428314, -0.07210918522127474], [1.045, 0.9821558462181577, -0.7890483384445452], [1.1, 0.8099773292524317, -0.9242860825036721]]}, "pose": {"rotation": {"quaternion": [0.0834834688460578, -0.8295956127423388, 0.40393218934191494, -0.37635145298183725]}, "position": [0.17294625358271953, -0.9019705703486778, 0.20341772197463937]}}], "method": {"name": "gjk", "closest_point": "johnson"}})");
-  ASSERT_EQ(recording.result.status, "stalled");
-  const std::vector<Finding> findings = check(recording);
-  ASSERT_EQ(findings.size(), 1U);
-  EXPECT_EQ(findings[0].code, "cycle");
-  EXPECT_EQ(findings[0].severity, Finding::Severity::warning);
-  EXPECT_EQ(findings[0].message.find("never end"), std::string::npos) << findings[0].message;
+  EXPECT_EQ(recording.result.status, "converged");
+  EXPECT_EQ(said_of(recording), "");
 }
 
 TEST(CheckRounding, OfASliverJohnsonsCofactorsMayNameAnotherPart) {
@@ -80,12 +76,12 @@ TEST(CheckRounding, ThePlaneOfASliverIsTurned) {
 
 /// In single precision, 1.5e-7 deep: the points that are projected are no better known, and either answer is right.
 TEST(CheckRounding, RoundBodiesThatTouchByTheirProjections) {
-  Recording recording = run_of(R"({"format": "gjk-scene", "version": 1, "dimension": 2, "query": "intersect", "method": {"name": "projections", "scalar": "float"}, "bodies": [
+  const Recording recording = run_of(R"({"format": "gjk-scene", "version": 1, "dimension": 2, "query": "intersect", "method": {"name": "projections", "scalar": "float"}, "bodies": [
     {"shape": {"type": "capsule", "radius": 0.00046424271117729193, "half_height": 5.2724635508622335e-05, "axis": "x"},
      "pose": {"position": [-0.5801655648699204, -0.3261080873669525], "rotation": {"matrix": [[0.5711671944060898, -0.82083374445394], [0.82083374445394, 0.5711671944060898]]}}},
     {"shape": {"type": "capsule", "radius": 1.8264841725251896e-06, "half_height": 0.7018809017175992, "axis": "x"},
      "pose": {"position": [0.02092824460921542, -0.4342494651225123], "rotation": {"matrix": [[0.9843477861722153, 0.1762368742853171], [-0.1762368742853171, 0.9843477861722153]]}}}]})");
-  EXPECT_FALSE(recording.result.intersecting);
+  EXPECT_TRUE(recording.result.intersecting);
   EXPECT_EQ(said_of(recording), "");
 }
 
