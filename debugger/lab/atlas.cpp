@@ -15,6 +15,24 @@
 #include "shapes/error.h"
 
 namespace gjkdbg {
+
+Verdict judge(const Answered& r, double exact, double size, double unit, double tolerance, double& error) {
+  error = 0;
+  const double scale = std::max(size, std::abs(exact));
+  const bool class_lost = r.overlap != (exact <= 0);
+  if (class_lost && std::abs(exact) > 64 * unit * scale) return error = std::abs((r.known ? r.value : 0) - exact) / scale, Verdict::wrong_class;
+  if (!r.known) return class_lost ? Verdict::right_within_rounding : Verdict::right;
+  if (!std::isfinite(r.value)) return error = std::numeric_limits<double>::infinity(), Verdict::not_finite;
+  error = std::abs(r.value - exact) / scale;
+  // The bounds count their own rounding; the exact answer here has some, too.
+  if (r.bounded && !(exact >= r.lower - 4 * unit * scale && exact <= r.upper + 4 * unit * scale)) return Verdict::lied;
+  const double good = std::max(unit > 1e-10 ? 1e-5 : 1e-9, 2 * tolerance);  // what was asked for
+  if (error <= 4 * unit && !class_lost) return Verdict::right;
+  if (error <= good) return class_lost || error > 64 * unit ? Verdict::right_within_rounding : Verdict::right;
+  if (r.unfinished) return Verdict::gave_up;
+  return r.bounded ? Verdict::wrong_value : Verdict::lied;
+}
+
 namespace {
 
 std::string digits_of(double x, int digits) {
@@ -29,31 +47,6 @@ std::string beside(double x, double y) {
   int digits = 3;
   while (digits < 17 && x != y && digits_of(x, digits) == digits_of(y, digits)) ++digits;
   return digits_of(x, digits) + " for " + digits_of(y, digits);
-}
-
-/// What was answered, of whichever method.
-struct Answered {
-  bool overlap = false, known = true;  ///< known: the value is
-  double value = 0, lower = 0, upper = 0;
-  bool bounded = false, unfinished = false;
-};
-
-/// Judges one answer. `unit` is the rounding of the method's scalar; the exact answer itself carries a few roundings of the sizes.
-Verdict judge(const Answered& r, double exact, double size, double unit, double tolerance, double& error) {
-  error = 0;
-  const double scale = std::max(size, std::abs(exact));
-  const bool class_lost = r.overlap != (exact <= 0);
-  if (class_lost && std::abs(exact) > 64 * unit * scale) return error = std::abs((r.known ? r.value : 0) - exact) / scale, Verdict::wrong_class;
-  if (!r.known) return class_lost ? Verdict::right_within_rounding : Verdict::right;
-  if (!std::isfinite(r.value)) return error = std::numeric_limits<double>::infinity(), Verdict::not_finite;
-  error = std::abs(r.value - exact) / scale;
-  const double good = std::max(unit > 1e-10 ? 1e-5 : 1e-9, 2 * tolerance);  // what was asked for
-  if (error <= 4 * unit && !class_lost) return Verdict::right;
-  if (error <= good) return class_lost || error > 64 * unit ? Verdict::right_within_rounding : Verdict::right;
-  if (r.unfinished) return Verdict::gave_up;
-  const double slack = 64 * unit * scale;
-  const bool admitted = r.bounded && exact >= r.lower - slack && exact <= r.upper + slack;
-  return admitted ? Verdict::wrong_value : Verdict::lied;
 }
 
 /// What a method can be asked of a pair: all, or yes or no.
@@ -145,11 +138,11 @@ std::string cause(const Variant& variant, Verdict verdict) {
 }
 
 std::string sentence(const AtlasFamily& family, const Variant& variant, const AtlasCell& cell) {
-  static constexpr std::array<const char*, 9> said{"", "", "gives up", "is off, and its bounds admit it", "is off, and says it is not", "mistakes apart for overlapping", "answers no number", "does not come back", ""};
+  static constexpr std::array<const char*, 9> said{"", "", "gives up", "is off, and its bounds admit it", "", "mistakes apart for overlapping", "answers no number", "does not come back", ""};
   std::string verdict = said[static_cast<std::size_t>(cell.verdict)];
   const bool cast = cell.scene.query == Query::cast, missed = cast ? std::isfinite(cell.exact) : cell.exact <= 0;
   if (cell.verdict == Verdict::wrong_class && missed) verdict = "mistakes overlapping for apart";
-  if (cell.verdict == Verdict::lied && cast) verdict = "stops too late";
+  if (cell.verdict == Verdict::lied) verdict = cast ? "stops too late" : variant.peer ? "is off, and says it is not" : "gives bounds that exclude the truth";
   return variant.name + " " + verdict + " (" + beside(cell.value, cell.exact) + "): " + cause(variant, cell.verdict) + ". Here: " + family.what + ".";
 }
 

@@ -28,6 +28,15 @@ constexpr const char* word_of(Verdict x) { return verdict_names[static_cast<std:
 inline constexpr std::array<const char*, 9> verdict_marks{"", "\xE2\x89\x88", "?", "\xE2\x89\xA0", "!", "\xC2\xB1", "\xE2\x88\x9E", "\xC3\x97", ""};
 inline bool failed(Verdict verdict) { return verdict >= Verdict::gave_up && verdict != Verdict::not_applicable; }
 
+/// What was answered, of whichever method.
+struct Answered {
+  bool overlap = false, known = true;  ///< known: the value is
+  double value = 0, lower = 0, upper = 0;
+  bool bounded = false, unfinished = false;
+};
+/// Judges one answer, and tells its `error` relative to the size. `unit` is the rounding of the method's scalar; the exact answer itself carries a few roundings of the sizes.
+Verdict judge(const Answered& answer, double exact, double size, double unit, double tolerance, double& error);
+
 /// What is known of two bodies in motion, for a cast.
 struct ExactMotion {
   std::function<double(double)> gap;  ///< between the bodies, by time

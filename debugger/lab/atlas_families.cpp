@@ -104,6 +104,12 @@ void overlaps(std::vector<AtlasFamily>& out, bool quick) {
     flat.cases.push_back({tilt, pair({"", {Capsule{1, 2.5, 2}, 0}, identity_pose(3)}, {"", {Cylinder{0.5, 1.0 / 512, 2}, 0}, identity_pose(3)}), -1 - std::min(0.5, leant)});
     flat.cases.back().scene.bodies[1].pose.matrix = Eigen::AngleAxisd(tilt, vec(1, 0, 0)).toRotationMatrix();
   }
+  AtlasFamily crossed{"F4", "capsules whose middle lines cross at a smaller and smaller angle: their difference is flat, and next to a line", {}};
+  for (const double tilt : powers(1e-12, 1, quick)) {
+    crossed.cases.push_back({tilt, pair({"", {Capsule{0.5, 2, 2}, 0}, identity_pose(3)}, {"", {Capsule{0.25, 1, 2}, 0}, identity_pose(3)}), -0.75});
+    Pose& pose = crossed.cases.back().scene.bodies[1].pose;
+    pose.matrix = Eigen::AngleAxisd(tilt, vec(1, 0, 0)).toRotationMatrix(), pose.position = vec(0, 0, 0.375);
+  }
   AtlasFamily sides{"P2", "a prism of many sides about a cylinder: through each of the sides the way out is as short", {}};
   for (int count = 4; count <= (quick ? 16 : 256); count *= 2) {
     PointSet prism{PointSetKind::hull, {}, {}};
@@ -116,7 +122,7 @@ void overlaps(std::vector<AtlasFamily>& out, bool quick) {
     const double z = 0.4 - d;
     shallow.cases.push_back({d, pair(cube(vec(0, 0, 0), 0.2), cube(vec(0, 0, z), 0.2)), z - 0.4});
   }
-  out.push_back(stacked), out.push_back(same), out.push_back(spheres), out.push_back(deep), out.push_back(ring), out.push_back(tilted), out.push_back(rod), out.push_back(flat), out.push_back(sides), out.push_back(shallow);
+  out.push_back(stacked), out.push_back(same), out.push_back(spheres), out.push_back(deep), out.push_back(ring), out.push_back(tilted), out.push_back(rod), out.push_back(flat), out.push_back(crossed), out.push_back(sides), out.push_back(shallow);
 }
 
 /// Triangles tip to tip in the plane, wedges edge to edge in space.
@@ -141,6 +147,25 @@ AtlasFamily tips(bool quick) {
   return family;
 }
 
+/// The line of the edge is `radius - d` from the axis, so the edge d deep, and no direction is shorter: the triangle lies beyond the plane that touches the side there.
+AtlasFamily edge_in_a_rod(bool quick) {
+  AtlasFamily family{"S5", "the edge of a triangle in the side of a long rod: EPA's faces around the way out are slivers, whose planes lean", {}};
+  const double radius = 0.5, half = 1000;
+  for (const double d : powers(1e-8, 1e-1, quick))
+    for (int turn = 1; turn <= 40; ++turn) {
+      const AnyMatrix axes = rotation(5, 1 + turn, 2 - turn % 7, turn % 11);
+      const AnyVector along = axes.col(2), out = (axes.col(0) + 0.1 * (turn % 13) * axes.col(1)).normalized();
+      const Eigen::Vector3d axis = along, edge = 0.3 * axis + axis.cross(Eigen::Vector3d(out)) * (turn % 5 + 1) / 3;
+      const AnyVector corner = -0.7 * edge, other = 1.1 * edge;
+      Scene scene = pair(points({corner, other, 0.9 * out + 0.4 * along}), {"", {Cylinder{radius, half, 2}, 0}, identity_pose(3)});
+      Pose& pose = scene.bodies[1].pose;
+      pose.matrix = axes, pose.rotation = RotationMatrix{axes}, pose.position = (d - radius) * out + 0.3 * along;
+      const Eigen::Vector3d across = axis.cross(Eigen::Vector3d(other - corner)).normalized();
+      family.cases.push_back({d, scene, std::abs(across.dot(Eigen::Vector3d(pose.position - corner))) - radius});
+    }
+  return family;
+}
+
 void degenerate(std::vector<AtlasFamily>& out, bool quick) {
   AtlasFamily slab{"F1", "flat plates: the difference has next to no volume, or none", {}};
   for (const double t : powers(1e-3, 1e-12, quick)) slab.cases.push_back({t, pair(box(vec(1, 1, t), vec(0, 0, 0)), box(vec(1, 1, t), vec(1.0 / 3, 0.2, t))), -t});
@@ -155,7 +180,7 @@ void degenerate(std::vector<AtlasFamily>& out, bool quick) {
   for (const double l : powers(10, 1e9, quick)) needles.cases.push_back({l, pair(box(vec(l, 1 / l, 1 / l), vec(0, 0, 0)), box(vec(1 / l, l, 1 / l), vec(0, 0, 4 / l))), 4 / l - 2 * (1 / l)});
   AtlasFamily sliver{"S2", "a triangle of vanishing height: its normal is rounding", {}};
   for (const double h : powers(1e-2, 1e-12, quick)) sliver.cases.push_back({h, pair(points({vec(0, 0, 0), vec(1, 0, 0), vec(0.5, h, 0)}), points({vec(0.5, 0, 1)})), 1});
-  out.push_back(slab), out.push_back(flat), out.push_back(lines), out.push_back(needles), out.push_back(sliver), out.push_back(tips(quick));
+  out.push_back(slab), out.push_back(flat), out.push_back(lines), out.push_back(needles), out.push_back(sliver), out.push_back(tips(quick)), out.push_back(edge_in_a_rod(quick));
 }
 
 /// A cylinder that pokes through a triangle far larger than itself leaves across the triangle's plane: as deep as its support, r |a_xy| + h |a_z| with
