@@ -47,7 +47,8 @@ void RecordCheck::judge(const recorded::MprBegan& e) {
   if (!leads) cleared_ = unknowable;
 }
 
-/// The origin's distance from the boundary of the hull of the inner point and the portal: no depth is less. NaN where it is rounding that has the origin inside.
+/// The origin's distance from the boundary of the hull of the inner point and the portal: no depth is less. NaN where it is rounding that has the origin inside, or where the planes of slivers
+/// are worth less than what is compared here.
 double RecordCheck::clearance(const recorded::PortalFound& e) const {
   if (inside_.size() != c_.dimension) return unknowable;  // the step that tells it is not there
   const double uncertain = std::max(c_.tolerance, 1e-7 * c_.size);
@@ -56,11 +57,19 @@ double RecordCheck::clearance(const recorded::PortalFound& e) const {
     if (const auto found = c_.vertices.find(v); found != c_.vertices.end()) w.push_back(found->second);
   if (w.size() != static_cast<std::size_t>(c_.dimension) || std::abs(e.distance) <= uncertain) return unknowable;
   if (e.distance < 0) return -unknown;
+  // As MPR takes off its own lower bound (algo/mpr.h): the normal is off by a few roundings over the sine between two sides, the plane by that times how far its points are.
+  const auto is_noise = [&](const AnyVector& x, const AnyVector& y, const AnyVector& corner) {
+    if (c_.dimension < 3) return false;
+    const Eigen::Vector3d side = x - corner, other = y - corner;
+    const double far = std::max({x.norm(), y.norm(), corner.norm()});
+    return !(2 * c_.digits() * far * side.norm() * other.norm() <= uncertain * side.cross(other).norm());
+  };
+  if (c_.dimension == 3 && is_noise(w[1], w[2], w[0])) return unknowable;
   double least = e.distance;
   for (std::size_t i = 0; i < w.size() && c_.dimension > 1; ++i) {  // the sides, each of the inner point and of all corners but one
     const AnyVector p = w[(i + 1) % w.size()] - inside_, q = w[(i + 2) % w.size()] - inside_;
     AnyVector n = c_.dimension == 2 ? AnyVector(Eigen::Vector2d(p[1], -p[0])) : AnyVector(Eigen::Vector3d(p).cross(Eigen::Vector3d(q)));
-    if (n.norm() <= 1e-6 * p.norm() * (c_.dimension == 3 ? q.norm() : 1)) return unknowable;
+    if (n.norm() <= 1e-6 * p.norm() * (c_.dimension == 3 ? q.norm() : 1) || is_noise(w[(i + 1) % w.size()], w[(i + 2) % w.size()], inside_)) return unknowable;
     if (n.dot(w[i] - inside_) > 0) n = -n;
     least = std::min(least, n.normalized().dot(inside_));
   }
