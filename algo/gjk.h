@@ -167,8 +167,8 @@ class Gjk {
     advance_to(nearest.v, nearest.v_squared);
     return true;
   }
-  /// Whether that is nearer, or as near to rounding, and known in twice the precision: elsewhere steps on the spot may go around in circles. But Newton's directions bring |v| to its least before
-  /// it falls by no more than it rounds, where |v| is known to a floor only.
+  /// Whether that is nearer; or as near, to rounding, and known in twice the precision: other steps on the spot may go around in circles. Newton's directions
+  /// bring |v| to its least before it falls by no more than it rounds, where |v| is known to a floor only.
   [[gnu::always_inline]] bool falls_to(const T& v, S v_squared, bool wide = false) {
     if (v_squared < v_squared_) [[likely]] return true;
     if (!wide && !leading_.by_newton()) return false;
@@ -191,7 +191,8 @@ class Gjk {
   /// Whether |v| bounds the distance: the point of A - B that the weights make is as near. If not, v is taken in twice the precision; true where that has led no farther before.
   /// `asked`: the newest point was asked for since the simplex was cut down, and counts as well.
   [[gnu::always_inline]] bool stands(bool asked) {
-    constexpr S near = 128 * std::numeric_limits<S>::epsilon();  // the floor is 8 of these times what a vertex is away at most: of ones no farther than 16 |v| the formulas do not round apart by more
+    // The floor is 8 epsilon times how far a vertex can be, or more: of vertices no farther than 16 |v| the formulas do not round apart by more than it.
+    constexpr S near = 128 * std::numeric_limits<S>::epsilon();
     if (stands_ || enclosed_ || options_.goal == GjkGoal::intersect || (floor_ <= near * distance_ && plane_ <= distance_)) [[likely]] return true;
     if (asked) places_ |= 1u << newest_;
     if constexpr (traced<Trace>) before_ = vertex_numbers();
@@ -219,8 +220,8 @@ class Gjk {
   }
 
   /// Whether the newest support point settles it. The plane must be the one across v itself, not the best one met: then
-  /// the normal -v / |v| is certified as well as the distance. A point met before cannot bring anything new; and no vertex of the simplex
-  /// is nearer along v than v is, but for rounding.
+  /// the normal -v / |v| is certified as well as the distance. A point met before cannot bring anything new, and no vertex of the simplex
+  /// is nearer along v than v is, but for rounding: where that is more, `reduce_again` has the last word on v.
   [[gnu::always_inline]] bool proven(const Point& point) {
     if (options_.goal == GjkGoal::intersect && lower_bound_ > difference_.radius()) return end_as(GjkStatus::separated);
     const S gap = distance_ - plane_;

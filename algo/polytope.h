@@ -66,8 +66,9 @@ class Polytope {
   /// use, unless they are plainly the corners of an octahedron that has the origin inside by more than `floor`.
   bool start_octahedron(const std::array<int, 2>& poles, const std::array<int, 4>& ring, S floor);
 
-  /// The face with the smallest signed distance; the plane of one whose own rounding might hide that is set anew, in twice the precision, before. One look at all there are: they are few, and which of them is nearer is nothing a processor can
-  /// guess, as it would have to in a heap. -1 when no face is left.
+  /// The face with the smallest signed distance; -1 when no face is left. A sliver's plane may be off by more than `allowed`: it is looked at as the least that
+  /// leaves, and set anew in twice the precision when that makes it the nearest. One look at all there are: they are few, and which of them is nearer is nothing a
+  /// processor can guess, as it would have to in a heap.
   int nearest();
 
   /// A face as `nearest` would return it.

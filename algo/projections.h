@@ -83,6 +83,7 @@ class Projections {
       const S moved = g.dot(g);
       // The plane across v leans by about |g| / |v| against the farthest one; that counts by the size of the bodies where these have edges.
       const bool worth_asking = result_.iterations > 1 && moved * reach_ * reach_ <= 4 * tolerance_ * squared * squared + floor_ * floor_;
+      // Of a yes or no, where so much leaning leaves it room beyond the radii.
       const bool may_tell = yes_or_no && moved * reach_ * reach_ <= 16 * (distance - enough) * (distance - enough) * squared;
       if (worth_asking || may_tell) {
         const V upright = upright_way(v);
