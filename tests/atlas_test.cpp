@@ -32,5 +32,28 @@ TEST(Verdicts, OfOneAnswer) {
   EXPECT_EQ(verdict_on({true, true, -0.2, 0, 0, false, false}, -0.1), Verdict::lied) << "another library's, which says nothing of bounds";
 }
 
+AtlasCell measured(Verdict verdict, double error, int failed) {
+  AtlasCell cell;
+  cell.verdict = verdict, cell.worst_error = error, cell.failed = failed;
+  return cell;
+}
+
+TEST(Gate, TellsHowACellIsWorse) {
+  const KeptCell was{Verdict::wrong_value, 40, 3, 1e-6};
+  const auto worse = [&](Verdict verdict, double error, int failed, int cases = 40, bool only_verdict = false) { return worse_than_kept(measured(verdict, error, failed), cases, was, only_verdict); };
+  EXPECT_EQ(worse(Verdict::wrong_value, 1e-6, 3), "");
+  EXPECT_EQ(worse(Verdict::gave_up, 1, 40), "") << "less serious";
+  EXPECT_EQ(worse(Verdict::lied, 1e-9, 1), "wrong-value -> lied");
+  EXPECT_EQ(worse(Verdict::not_applicable, 0, 0), "wrong-value -> not-applicable") << "what was answered is no longer";
+  EXPECT_EQ(worse(Verdict::wrong_value, 1e-9, 4), "wrong-value in 3 -> 4 of 40 cases");
+  EXPECT_EQ(worse(Verdict::wrong_value, 9e-6, 3), "");
+  EXPECT_EQ(worse(Verdict::wrong_value, 2e-5, 3), "wrong-value, error 1e-06 -> 2e-05");
+  EXPECT_EQ(worse(Verdict::wrong_value, 1, 9, 12), "") << "of other cases neither can be told";
+  EXPECT_EQ(worse(Verdict::wrong_value, 1, 9, 40, true), "");
+  EXPECT_EQ(worse_than_kept(measured(Verdict::right, 1e-15, 0), 40, {Verdict::right, 40, 0, 1e-17}, false), "") << "digits of rounding";
+  EXPECT_EQ(worse_than_kept(measured(Verdict::right, 0, 0), 40, {Verdict::not_applicable, 40, 0, 0}, false), "");
+  EXPECT_EQ(worse_than_kept(measured(Verdict::wrong_value, 1e-6, 40), 40, {Verdict::wrong_value, 40, -1, 1e-6}, false), "") << "kept without a count";
+}
+
 }  // namespace
 }  // namespace gjkdbg

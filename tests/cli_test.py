@@ -580,6 +580,13 @@ class Program(unittest.TestCase):
         self.assertEqual(result.returncode, 1)
         self.assertIn("worse than kept", result.stdout)
         self.assertRegex(result.stdout, r"\ngate: \d\d cells compared, [1-9]\d* worse than kept or not measured\n$")
+        # As bad as before, and more often, or by more.
+        worst = next((f, c) for f in atlas["families"] for c in f["cells"] if c["method"] == "MPR" and c["verdict"] == "wrong-value")
+        for change, told in ({"failed": worst[1]["failed"] - 1}, "wrong-value in "), ({"worst_error": worst[1]["worst_error"] / 20}, "wrong-value, error "):
+            cell = {"format": "gjk-atlas", "version": 1, "families": [{**worst[0], "cells": [{**worst[1], **change}]}]}
+            result = run("atlas", "--quick", "--method", "mpr", "--families", worst[0]["name"], "-o", folder, "--gate", self.write("cell.json", cell))
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(f"worse than kept: {worst[0]['name']}, MPR: {told}", result.stdout)
         self.refused(run("atlas", "--quick", "-o", folder, "--gate", self.scene), "/format")
         for change, place in ({"version": 99}, "/version"), ({"families": 5}, "/families"), ({"families": []}, "/families"), ({"families": [{"name": "K1", "cells": "x"}]}, "/families/0/cells"), ({"families": [7]}, "/families/0"):
             self.refused(run("atlas", "--quick", "-o", folder, "--gate", self.write("odd.json", {**better, **change})), place)

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <memory>
-#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -51,14 +51,21 @@ struct AtlasCommand {
         const AtlasCell& cell = atlas.cells[f][m];
         if (cell.verdict == Verdict::right || cell.verdict == Verdict::not_applicable) continue;
         std::cout << "      " << std::setw(26) << atlas.methods[m].name << std::setw(22) << word_of(cell.verdict) << " error " << std::setprecision(2) << cell.worst_error << " at "
-                  << cell.parameter << "\n";
+                  << cell.parameter;
+        if (cell.failed > 0) std::cout << "; " << cell.failed << " of " << atlas.families[f].cases.size() << (cell.failed == 1 ? " fails" : " fail");
+        std::cout << "\n";
         if (!cell.why.empty()) std::cout << "        " << cell.why << "\n";
       }
     }
   }
 
-  /// Verdicts by family and method.
-  using Kept = std::map<std::pair<std::string, std::string>, Verdict>;
+  /// By family and method.
+  using Kept = std::map<std::pair<std::string, std::string>, KeptCell>;
+
+  static int count_of(ObjectReader& object, const char* name, int unless) {
+    const Json* count = object.optional(name);
+    return count ? read_integer(*count, object.at(name), 0, 1'000'000) : unless;
+  }
 
   /// Of what will be measured: of the methods, and where families are chosen of these.
   static Kept read_gate(const std::string& file, const std::vector<Variant>& columns, const std::vector<AtlasFamily>& rows, bool only_these) {
@@ -78,11 +85,13 @@ struct AtlasCommand {
       each(top.required("families"), at_families, [&](ObjectReader family, const Place& here) {
         const std::string name = read_string(family.required("name"), Place(here, "name"));
         const Place at_cells(here, "cells");
+        const int cases = count_of(family, "cases", 0);
         each(family.required("cells"), at_cells, [&](ObjectReader cell, const Place& at) {
           const std::string method = read_string(cell.required("method"), Place(at, "method"));
-          const auto verdict = static_cast<Verdict>(read_enum(cell.required("verdict"), Place(at, "verdict"), verdict_names));
+          KeptCell was{static_cast<Verdict>(read_enum(cell.required("verdict"), Place(at, "verdict"), verdict_names)), cases, count_of(cell, "failed", -1), std::numeric_limits<double>::infinity()};
+          if (const Json* error = cell.optional("worst_error"); error && !error->is_null()) was.worst_error = read_number(*error, Place(at, "worst_error"));
           const bool row = !only_these || std::any_of(rows.begin(), rows.end(), [&](const AtlasFamily& f) { return f.name == name; });
-          if (row && std::any_of(columns.begin(), columns.end(), [&](const Variant& v) { return v.name == method; })) kept[{name, method}] = verdict;
+          if (row && std::any_of(columns.begin(), columns.end(), [&](const Variant& v) { return v.name == method; })) kept[{name, method}] = was;
         });
       });
       if (kept.empty()) reject(at_families, "wrong-count", "has no cell of these families and methods: nothing to compare with");
@@ -94,19 +103,18 @@ struct AtlasCommand {
 
   /// Whether any cell that was kept is worse now, or not there to be compared.
   static bool compare(const Atlas& atlas, const Kept& kept) {
-    const auto seriousness = [](Verdict v) { return v == Verdict::not_applicable ? 0 : static_cast<int>(v); };
     std::size_t worse = 0;
     for (const auto& [cell, was] : kept) {
-      std::optional<Verdict> now;
+      std::string how = "kept, but not measured: " + cell.first + ", " + cell.second + ": " + word_of(was.verdict);
       for (std::size_t f = 0; f < atlas.families.size(); ++f)
-        for (std::size_t m = 0; m < atlas.methods.size(); ++m)
-          if (atlas.families[f].name == cell.first && atlas.methods[m].name == cell.second) now = atlas.cells[f][m].verdict;
-      const bool given_up_on = now == Verdict::not_applicable && was != Verdict::not_applicable;
-      if (now && !given_up_on && seriousness(*now) <= seriousness(was)) continue;
+        for (std::size_t m = 0; m < atlas.methods.size(); ++m) {
+          if (atlas.families[f].name != cell.first || atlas.methods[m].name != cell.second) continue;
+          how = worse_than_kept(atlas.cells[f][m], static_cast<int>(atlas.families[f].cases.size()), was, atlas.methods[m].peer != nullptr);
+          if (!how.empty()) how = "worse than kept: " + cell.first + ", " + cell.second + ": " + how;
+        }
+      if (how.empty()) continue;
       ++worse;
-      std::cout << (now ? "worse than kept: " : "kept, but not measured: ") << cell.first << ", " << cell.second << ": " << word_of(was);
-      if (now) std::cout << " -> " << word_of(*now);
-      std::cout << "\n";
+      std::cout << how << "\n";
     }
     if (!kept.empty()) std::cout << "gate: " << kept.size() << " cells compared, " << (worse == 0 ? "none" : std::to_string(worse)) << " worse than kept or not measured\n";
     return worse > 0;
@@ -122,7 +130,7 @@ void add_atlas(CLI::App& app, Status& status) {
   command->add_option("--methods,--method", options->methods, "only methods whose names begin so: default, johnson, sat, …; an unknown name lists all");
   command->add_option("--families", options->families, "only these, by their letters (K1, C6, …), separated by commas; an unknown one lists all")->delimiter(',');
   command->add_option("-o,--output", options->output, "folder (atlas)")->check(named());
-  command->add_option("--gate", options->gate, "a kept atlas.json: exit status 1 when any cell is worse, or was not measured")->check(named());
+  command->add_option("--gate", options->gate, "a kept atlas.json: exit status 1 when any cell is worse (verdict; of as many cases, how many fail, and the worst error), or was not measured")->check(named());
   command->callback([options, &status] { status = options->run(); });
 }
 

@@ -166,13 +166,16 @@ AtlasCell sweep(const AtlasFamily& family, const Variant& variant) {
   AtlasCell cell;
   cell.verdict = Verdict::not_applicable;
   bool first = true;
+  int failures = 0;
   for (const AtlasCase& one : family.cases) {
     const Judged judged = one.motion.gap ? judge_cast_case(variant, one) : judge_case(variant, one.scene, one.exact);
     if (judged.verdict == Verdict::not_applicable) continue;
+    failures += failed(judged.verdict);
     if (first || judged.verdict > cell.verdict || (judged.verdict == cell.verdict && judged.error > cell.worst_error))
-      cell = {judged.verdict, judged.error, one.parameter, judged.value, one.exact, one.scene, ""};
+      cell = {judged.verdict, judged.error, one.parameter, 0, judged.value, one.exact, one.scene, ""};
     first = false;
   }
+  cell.failed = failures;
   if (!failed(cell.verdict)) return cell;
   if (cell.scene.query != Query::cast) simplify(variant, cell);
   cell.why = sentence(family, variant, cell);
@@ -193,12 +196,23 @@ Atlas make_atlas(std::vector<AtlasFamily> families, const std::vector<Variant>& 
   return atlas;
 }
 
+std::string worse_than_kept(const AtlasCell& now, int cases, const KeptCell& was, bool only_verdict) {
+  const auto seriousness = [](Verdict v) { return v == Verdict::not_applicable ? 0 : static_cast<int>(v); };
+  const bool given_up_on = now.verdict == Verdict::not_applicable && was.verdict != Verdict::not_applicable;
+  if (given_up_on || seriousness(now.verdict) > seriousness(was.verdict)) return std::string(word_of(was.verdict)) + " -> " + word_of(now.verdict);
+  if (only_verdict || now.verdict != was.verdict || cases != was.cases) return "";
+  if (was.failed >= 0 && now.failed > was.failed) return std::string(word_of(now.verdict)) + " in " + std::to_string(was.failed) + " -> " + std::to_string(now.failed) + " of " + std::to_string(cases) + " cases";
+  const bool beyond_rounding = now.verdict != Verdict::right && now.worst_error > 10 * was.worst_error;
+  return beyond_rounding ? std::string(word_of(now.verdict)) + ", error " + three_digits(was.worst_error) + " -> " + three_digits(now.worst_error) : "";
+}
+
 std::string atlas_csv(const Atlas& atlas) {
-  std::string out = "family,method,verdict,worst_error,parameter\n";
+  std::string out = "family,method,verdict,worst_error,parameter,failed,cases\n";
   for (std::size_t f = 0; f < atlas.families.size(); ++f)
     for (std::size_t m = 0; m < atlas.methods.size(); ++m) {
       const AtlasCell& cell = atlas.cells[f][m];
-      out += atlas.families[f].name + ",\"" + atlas.methods[m].name + "\"," + word_of(cell.verdict) + "," + three_digits(cell.worst_error) + "," + three_digits(cell.parameter) + "\n";
+      out += atlas.families[f].name + ",\"" + atlas.methods[m].name + "\"," + word_of(cell.verdict) + "," + three_digits(cell.worst_error) + "," + three_digits(cell.parameter) + "," +
+             std::to_string(cell.failed) + "," + std::to_string(atlas.families[f].cases.size()) + "\n";
     }
   return out;
 }
@@ -213,6 +227,7 @@ std::string atlas_json(const Atlas& atlas) {
       const AtlasCell& cell = atlas.cells[f][m];
       nlohmann::ordered_json entry{{"method", atlas.methods[m].name}, {"verdict", word_of(cell.verdict)}, {"parameter", cell.parameter}};
       entry["worst_error"] = std::isfinite(cell.worst_error) ? nlohmann::ordered_json(cell.worst_error) : nlohmann::ordered_json(nullptr);
+      entry["failed"] = cell.failed;
       if (failed(cell.verdict)) {
         entry["why"] = cell.why;
         SceneFile worst;

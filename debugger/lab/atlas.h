@@ -63,6 +63,7 @@ struct AtlasCell {
   Verdict verdict = Verdict::right;
   double worst_error = 0;  ///< relative to the size
   double parameter = 0;    ///< of the worst case
+  int failed = 0;          ///< of the family's cases
   double value = 0, exact = 0;  ///< what it answered in `scene`, and the truth
   Scene scene;             ///< the worst case; where the cell failed, made as simple as still fails the same way
   std::string why;         ///< a sentence, where the cell failed
@@ -75,6 +76,16 @@ struct Atlas {
 };
 /// Of these families and methods; `progress(share done)` returns false to stop.
 Atlas make_atlas(std::vector<AtlasFamily> families, const std::vector<Variant>& methods, const std::function<bool(double)>& progress);
+
+/// What a kept atlas says of a cell.
+struct KeptCell {
+  Verdict verdict = Verdict::right;
+  int cases = 0, failed = -1;  ///< -1: it does not say
+  double worst_error = 0;
+};
+/// How a cell of so many cases is worse than it was kept, or nothing: a verdict more serious; of as many cases, more that fail; or, beyond rounding, an
+/// error more than ten times as large. Of another library only the verdict counts, for how often it does not come back is a matter of time.
+std::string worse_than_kept(const AtlasCell& now, int cases, const KeptCell& was, bool only_verdict);
 
 std::string atlas_csv(const Atlas& atlas);
 std::string atlas_json(const Atlas& atlas);

@@ -105,8 +105,10 @@ MeasuredChart read_chart(ObjectReader& top) {
 
 MeasuredAtlas read_atlas(ObjectReader& top) {
   MeasuredAtlas atlas;
+  constexpr int most = 1'000'000;  // cases
   each(top, "families", [&](ObjectReader& object) {
     MeasuredAtlas::Family family{string_at(object, "name"), string_at(object, "what"), {}};
+    const Json* const cases = object.optional("cases");
     each(object, "cells", [&](ObjectReader& cell) {
       MeasuredCell c;
       const auto method = static_cast<std::size_t>(index_of(atlas.methods, string_at(cell, "method")));
@@ -114,6 +116,7 @@ MeasuredAtlas read_atlas(ObjectReader& top) {
       const Json& error = cell.required("worst_error");
       c.worst_error = error.is_null() ? std::numeric_limits<double>::infinity() : read_number(error, cell.at("worst_error"));
       c.parameter = number_at(cell, "parameter");
+      if (const Json* failed = cell.optional("failed"); failed && cases) c.how_often = std::to_string(read_integer(*failed, cell.at("failed"), 0, most)) + " of " + std::to_string(read_integer(*cases, object.at("cases"), 0, most));
       if (cell.optional("why")) c.why = string_at(cell, "why");
       if (const Json* scene = cell.optional("scene")) c.scene = scene_at(*scene, cell.at("scene"));
       if (family.cells.size() <= method) family.cells.resize(method + 1);

@@ -64,7 +64,7 @@ inline constexpr std::array<const char*, 9> atlas_verdicts{"right", "right-withi
 struct MeasuredCell {
   int verdict = 0;
   double worst_error = 0, parameter = 0;  ///< error: infinite for an answer that is no number
-  std::string why;
+  std::string why, how_often;             ///< how_often: of the family's cases, where the file says so
   std::optional<SceneFile> scene;         ///< where it failed
 };
 

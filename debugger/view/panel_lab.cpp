@@ -39,7 +39,8 @@ void tell_cell(App& app, const MeasuredAtlas& atlas, const MeasuredAtlas::Family
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(app.theme.px(460));
   ImGui::Text("%s, %s: %s (%s)", family.name.c_str(), atlas.methods[m].c_str(), atlas_verdicts[static_cast<std::size_t>(cell.verdict)], atlas_verdict_meanings[static_cast<std::size_t>(cell.verdict)]);
-  if (cell.verdict != 8) ImGui::TextColored(vec(app.theme.palette.text_soft), "worst error %.2g at %g", cell.worst_error, cell.parameter);
+  const std::string often = cell.scene && !cell.how_often.empty() ? ", " + cell.how_often + " cases fail" : "";
+  if (cell.verdict != 8) ImGui::TextColored(vec(app.theme.palette.text_soft), "worst error %.2g at %g%s", cell.worst_error, cell.parameter, often.c_str());
   ImGui::TextUnformatted(cell.why.empty() ? family.what.c_str() : cell.why.c_str());
   if (cell.scene) ImGui::TextColored(vec(app.theme.palette.text_faint), "click: the simplest scene that fails so");
   ImGui::PopTextWrapPos();
