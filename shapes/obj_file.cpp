@@ -1,7 +1,5 @@
 #include "shapes/obj_file.h"
 
-#include <tiny_obj_loader.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -11,6 +9,7 @@
 
 #include "shapes/error.h"
 #include "shapes/input_file.h"
+#include "shapes/polygon_triangles.h"
 #include "shapes/shape.h"
 
 namespace gjkdbg {
@@ -35,9 +34,9 @@ AnyVector read_vertex(std::istream& words, const std::string& place) {
 }
 
 /// A corner is a vertex, perhaps with texture and normal: 1, 1/2, 1//3, 1/2/3. Vertices count from 1, or from the latest, -1, backwards.
-void check_face(std::istream& words, std::size_t so_far, std::size_t in_all, const std::string& place) {
-  int corners = 0;
-  for (std::string word; words >> word; ++corners) {
+std::vector<int> read_face(std::istream& words, std::size_t so_far, std::size_t in_all, const std::string& place) {
+  std::vector<int> corners;
+  for (std::string word; words >> word;) {
     int vertex = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), vertex);
     const std::string_view rest(end, word.data() + word.size());
@@ -45,8 +44,10 @@ void check_face(std::istream& words, std::size_t so_far, std::size_t in_all, con
       throw Error("bad-mesh", "\"" + word + "\" is no corner of a face", place);
     if (vertex == 0 || (vertex > 0 && static_cast<std::size_t>(vertex) > in_all) || (vertex < 0 && static_cast<std::size_t>(-static_cast<long>(vertex)) > so_far))
       throw Error("wrong-index", "a face names the vertex " + std::to_string(vertex) + ", which is not there", place);
+    corners.push_back(vertex > 0 ? vertex - 1 : static_cast<int>(so_far) + vertex);
   }
-  if (corners < 3) throw Error("bad-mesh", "a face needs three vertices", place);
+  if (corners.size() < 3) throw Error("bad-mesh", "a face needs three vertices", place);
+  return corners;
 }
 
 /// Line by line, what comes before a #; and without the mark some editors put before everything. A line that ends in \ goes on in the next:
@@ -71,10 +72,10 @@ std::string without_comments(std::istream& in) {
   return out.starts_with(byte_order_mark) ? out.substr(byte_order_mark.size()) : out;
 }
 
-/// tinyobjloader reads single precision and skips what it cannot read; vertices are therefore taken from their lines,
-/// in double, and anything malformed is named, with its line.
-std::vector<AnyVector> read_vertices(const std::string& text, const std::string& name) {
-  std::vector<AnyVector> points;
+/// From their lines, so that anything malformed is named with its line. Packaged loaders read single precision, skip what they do not understand, and cut a quadrilateral
+/// along its shorter diagonal though that may lie outside.
+ObjMesh read_statements(const std::string& text, const std::string& name) {
+  ObjMesh mesh;
   const auto for_lines = [&](auto&& line_of) {
     std::istringstream in(text);
     std::string line, keyword;
@@ -82,15 +83,17 @@ std::vector<AnyVector> read_vertices(const std::string& text, const std::string&
       if (std::istringstream words(line); words >> keyword) line_of(keyword, words, name + ": line " + std::to_string(number));
   };
   for_lines([&](const std::string& keyword, std::istream& words, const std::string& place) {
-    if (keyword == "v") points.push_back(read_vertex(words, place));
+    if (keyword == "v") mesh.points.push_back(read_vertex(words, place));
     else if (std::find(std::begin(statements), std::end(statements), keyword) == std::end(statements)) throw Error("bad-mesh", "\"" + keyword.substr(0, 40) + "\" is no statement of OBJ", place);
   });
   std::size_t so_far = 0;
   for_lines([&](const std::string& keyword, std::istream& words, const std::string& place) {
     if (keyword == "v") ++so_far;
-    if (keyword == "f") check_face(words, so_far, points.size(), place);
+    if (keyword != "f") return;
+    const auto triangles = polygon_triangles(mesh.points, read_face(words, so_far, mesh.points.size(), place));
+    mesh.triangles.insert(mesh.triangles.end(), triangles.begin(), triangles.end());
   });
-  return points;
+  return mesh;
 }
 
 }  // namespace
@@ -98,29 +101,8 @@ std::vector<AnyVector> read_vertices(const std::string& text, const std::string&
 ObjMesh read_obj(const std::filesystem::path& file) {
   const std::string name = file.string();
   auto input = open_input(file);
-  const std::string statements_only = without_comments(input);
-  std::istringstream text(statements_only);
-  ObjMesh mesh;
-  mesh.points = read_vertices(statements_only, name);
+  ObjMesh mesh = read_statements(without_comments(input), name);
   if (mesh.points.empty()) throw Error("no-points", "holds no vertices", name);
-
-  tinyobj::attrib_t attributes;
-  std::vector<tinyobj::shape_t> shapes;
-  std::string warning, error;
-  if (!tinyobj::LoadObj(&attributes, &shapes, nullptr, &warning, &error, &text, nullptr, true))
-    throw Error("bad-mesh", error.empty() ? "is no OBJ file" : error.substr(0, error.find('\n')), name);
-  for (const tinyobj::shape_t& shape : shapes) {
-    const auto& indices = shape.mesh.indices;
-    for (std::size_t k = 0; k + 2 < indices.size(); k += 3) {
-      std::array<int, 3> triangle{};
-      for (int i = 0; i < 3; ++i) {
-        triangle[i] = indices[k + i].vertex_index;
-        if (triangle[i] < 0 || triangle[i] >= static_cast<int>(mesh.points.size()))
-          throw Error("wrong-index", "a face names a vertex that is not there", name);
-      }
-      mesh.triangles.push_back(triangle);
-    }
-  }
   return mesh;
 }
 

@@ -1,4 +1,4 @@
-// Meshes from Wavefront OBJ files, read with tinyobjloader.
+// Meshes from Wavefront OBJ files.
 #pragma once
 
 #include <array>

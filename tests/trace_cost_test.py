@@ -46,7 +46,7 @@ def compiled(compiler, tree, source, output):
 
 def linked(compiler, libraries, objects, program):
     """Of templates that several objects have, the first object's count: the driver, the same for both programs, comes last."""
-    subprocess.run([compiler, *objects, *libraries, "-lqhull_r", "-ltinyobjloader", "-lgmpxx", "-lgmp", "-o", str(program)], check=True)
+    subprocess.run([compiler, *objects, *libraries, "-lqhull_r", "-lgmpxx", "-lgmp", "-o", str(program)], check=True)
     return program
 
 
