@@ -20,12 +20,21 @@ constexpr double alignment_limit = 1 - 1e-9;  ///< cosine: a face whose normal i
 constexpr double parallel_sine = 1e-9;        ///< sine: lines at more share a point only
 constexpr double edge_on = 1e-6;              ///< sine: a face that is seen at less has no part of its own behind another
 
-/// The part of a polygon (or of a segment, two corners) on the inner side of a plane: outward . (x - on) <= 0.
+/// The part of a polygon (or of a segment, two corners) on the inner side of a plane: outward . (x - on) <= 0. What rounding leaves next to the plane is on it: an edge that lies
+/// along it would meet it anywhere.
 Points clipped(const Points& polygon, const AnyVector& outward, const AnyVector& on) {
+  const AnyVector unit = outward.stableNormalized();
+  double size = 0;
+  for (const AnyVector& p : polygon) size = std::max(size, (p - on).cwiseAbs().maxCoeff());
+  const double noise = 1e-12 * size + 8 * std::numeric_limits<double>::epsilon() * on.cwiseAbs().maxCoeff();
+  const auto height = [&](const AnyVector& p) {
+    const double h = unit.dot(p - on);
+    return std::abs(h) <= noise ? 0 : h;
+  };
   Points out;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const AnyVector &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    const double hp = outward.dot(p - on), hq = outward.dot(q - on);
+    const double hp = height(p), hq = height(q);
     if (hp <= 0) out.push_back(p);
     if ((hp < 0 && hq > 0) || (hp > 0 && hq < 0)) out.push_back(p + (q - p) * (hp / (hp - hq)));
   }

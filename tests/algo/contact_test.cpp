@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 #include "recordings/check.h"
 #include "recordings/recording.h"
@@ -297,6 +298,37 @@ TEST(Contact, WithoutADepthThereIsNone) {
   EXPECT_TRUE(r.intersecting);
   EXPECT_FALSE(r.normal);
   EXPECT_TRUE(r.contacts && r.contacts->empty());
+}
+
+/// Edges that lie along one another, by rounding a little across, meet nowhere: what two sides share has its four corners and no more.
+TEST(ContactPoints, OfEdgesInOneLineAreTheCorners) {
+  PointSet corners{PointSetKind::hull, {}, {}};
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-1.0, 1.0})
+      for (const double z : {-1.0, 1.0}) corners.points.push_back(Eigen::Vector3d(x, y, z));
+  const Shape box{Box{-Eigen::Vector3d::Ones(), Eigen::Vector3d::Ones()}, 0}, hull{corners, 0};
+  for (const Shape& shape : {box, hull})
+    for (int degrees = 0; degrees < 90; ++degrees)
+      for (const double far : {0.0, 3e4})
+        for (const double x : {0.0, 0.3, 0.5, 1.0}) {
+          Scene scene;
+          scene.query = Query::contact;
+          scene.bodies = {{"A", shape, identity_pose(3)}, {"B", shape, identity_pose(3)}};
+          const Eigen::Matrix3d turned = Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+          for (Body& body : scene.bodies) body.pose.matrix = turned, body.pose.position = Eigen::Vector3d(far, -far, 0);
+          scene.bodies[1].pose.position += turned * Eigen::Vector3d(x, 0, 1.99);
+          for (const MethodName name : {MethodName::gjk, MethodName::sat}) {
+            Method method;
+            method.name = name;
+            const auto found = *solve(scene, resolve_settings(method, scene)).contacts;
+            ASSERT_EQ(found.size(), 4u) << degrees << " degrees, " << x << " along, " << far << " out";
+            for (const ContactPoint& c : found) {
+              const Eigen::Vector3d at = turned.transpose() * (c.point_a - scene.bodies[0].pose.position);
+              EXPECT_NEAR(std::abs(at[0] - x / 2), 1 - x / 2, 1e-9);
+              EXPECT_NEAR(std::abs(at[1]), 1, 1e-9);
+            }
+          }
+        }
 }
 
 /// Its sides would be looked for along a normal that is none of theirs (sim-log-pile with a limit of 2: contacts beside both logs).
