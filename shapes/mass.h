@@ -11,8 +11,8 @@ struct MassProperties {
 };
 
 /// Exact for sphere, box, capsule, cylinder, cone, ellipsoid and point sets of any rank (solid, lamina, rod, point), in 3D and 2D. A margin on
-/// what is not a sphere or a capsule, and a sum, are taken as the hull of a few hundred support points: about a hundredth off. A mesh: nothing.
-/// On a line only an interval's centre is told; that of a sum is taken as 0.
+/// what is not a sphere or a capsule, and a sum, are filled by some hundred support points: about a thousandth off. A mesh: nothing.
+/// On a line only the centre is told.
 MassProperties mass_properties(const Shape& shape, int dimension);
 
 }  // namespace gjkdbg
