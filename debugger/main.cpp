@@ -37,6 +37,8 @@ std::vector<std::string> option_names(const CLI::App& command) {
 
 /// An option has several names ("--name,--method"), and CLI11 tells the first: here the one that was typed.
 std::string as_typed(std::string message, const CLI::App& command, const std::vector<std::string>& typed) {
+  constexpr std::string_view too_many = ": At Most 1 required but received ";
+  if (const std::size_t at = message.find(too_many); at != message.npos) message.replace(at, message.npos, ": given " + message.substr(at + too_many.size()) + " times");
   for (const CLI::Option* option : command.get_options()) {
     const std::string first = option->get_name();
     if (!message.starts_with(first + ":") && !message.starts_with(first + " ")) continue;

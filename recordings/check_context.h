@@ -266,6 +266,7 @@ class GjkCheck {
   std::vector<Reached> reached_;  ///< by each simplex
   std::map<std::string, std::size_t> regions_;
   std::string last_region_;
+  int unasked_ = 0;  ///< how often the simplex was told again with no support since
   std::optional<std::size_t> repeated_from_, repeated_at_;
   Repetition directions_;
 };

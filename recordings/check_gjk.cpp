@@ -287,6 +287,11 @@ void GjkCheck::check_cycle(const std::vector<int>& region) {
   repeated_from_.reset(), repeated_at_.reset();
   const bool other_between = last_region_ != key;
   last_region_ = key;
+  unasked_ = !other_between && !is_new && pending_.empty() ? unasked_ + 1 : 0;
+  if (unasked_ == 3) {  // a program may tell one step twice
+    c_.find_cost("cycle", "The simplex " + list_of(region) + " is that of step " + std::to_string(found->second) + " again, for the fourth time running, and no support was asked for in between: nothing new comes in, and the search will never end.");
+    return;
+  }
   const bool asks_on = other_between && c_.recording.settings.stopping == Stopping::jolt;  // until |v|^2 no longer falls, were it by rounding
   if (is_new || asks_on || pending_.empty() || nearest_point(vertices).v.norm() <= c_.tolerance) return;
   if (other_between && no_nearer_since(found->second))

@@ -149,7 +149,7 @@ struct Judge {
 
   void witnesses() const {
     const Scene& scene = c.recording.scene.scene;
-    const double slack = 10 * limit + rounding();
+    const double slack = limit + rounding();
     if (way_out() && *r.signed_distance < *right.signed_distance - limit) return;  // no points of both bodies lie that far apart along that normal
     const double out_a = r.witness_a ? outside(scene, 0, *r.witness_a) : 0, out_b = r.witness_b ? outside(scene, 1, *r.witness_b) : 0;
     if (out_a > slack || out_b > slack) {

@@ -2,6 +2,7 @@
 
 #include "recordings/json_reading.h"
 #include "recordings/recording.h"
+#include "shapes/input_file.h"
 
 namespace gjkdbg {
 namespace {
@@ -243,7 +244,7 @@ Recording parse_recording(std::string_view text, const std::filesystem::path& di
 Recording read_recording(const std::filesystem::path& file) {
   const std::string text = read_text_file(file);
   try {
-    return parse_recording(text, file.parent_path());
+    return parse_recording(text, directory_of(file));
   } catch (const Error& e) {
     throw e.in(file.string());
   }

@@ -22,7 +22,7 @@ std::string read_text_file(const std::filesystem::path& file) {
 SceneFile read_scene(const std::filesystem::path& file) {
   const std::string text = read_text_file(file);
   try {
-    return parse_scene(text, file.parent_path());
+    return parse_scene(text, directory_of(file));
   } catch (const Error& e) {
     throw e.in(file.string());
   }

@@ -16,4 +16,10 @@ std::ifstream open_input(const std::filesystem::path& file) {
   return in;
 }
 
+std::filesystem::path directory_of(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const bool other = std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored);
+  return other ? std::filesystem::path() : file.parent_path();
+}
+
 }  // namespace gjkdbg

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <numbers>
+#include <sstream>
 
 #include "shapes/error.h"
 
@@ -100,13 +102,17 @@ struct Resolve {
   ResolvedRotation operator()(std::monostate) const { return {AnyMatrix::Identity(dimension, dimension), 0}; }
   ResolvedRotation operator()(const Quaternion& q) const {
     need(3, "/quaternion");
-    double squared = 0;
+    double squared = 0, length = 0;  // the length of long ones, too, for the message
     for (const double x : q.wxyz) {
       if (!std::isfinite(x)) throw Error("non-finite", "must hold finite numbers", "/quaternion");
-      squared += x * x;
+      squared += x * x, length = std::hypot(length, x);
     }
     const double off = std::abs(std::sqrt(squared) - 1);
-    if (!(off <= 1e-6)) not_a_rotation("quaternion has length " + std::to_string(std::sqrt(squared)) + ", not 1", "/quaternion");
+    if (!(off <= 1e-6)) {
+      std::ostringstream text;
+      text << std::setprecision(9) << length;
+      not_a_rotation("quaternion has length " + text.str() + ", not 1", "/quaternion");
+    }
     return {from_quaternion(q.wxyz), off > 1e-15 ? off : 0};
   }
   ResolvedRotation operator()(const RotationMatrix& r) const { return from_matrix(r.rows, dimension); }

@@ -353,6 +353,29 @@ class Program(unittest.TestCase):
         self.assertEqual(result.returncode, 1)
         self.assertIn("event 1: w", result.stdout)
 
+    def test_whole_numbers_are_decimal_however_written(self):
+        for text, number in ("010", 10), ("0512", 512), ("08", 8), ("1e2", 100), ("7.0", 7):
+            recording = json.loads(run("dump", self.scene, "--max-iterations", text).stdout)
+            self.assertEqual(recording["method"]["max_iterations"], number, text)
+        self.refused(run("dump", self.scene, "--max-iterations", "2.5"), "--max-iterations", "whole number from 1", "2.5")
+        self.refused(run("dump", self.scene, "--tolerance", "1e-3", "--tolerance", "1e-4"), "--tolerance: given 2 times")
+
+    def test_files_named_on_standard_input_are_looked_for_here(self):
+        self.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n")
+        scene = json.dumps({"format": "gjk-scene", "version": 1, "dimension": 3, "bodies": [{"shape": {"type": "mesh", "mesh": "quad.obj"}}, {"shape": {"type": "sphere", "radius": 1}, "pose": {"position": [0, 0, 3]}}]})
+        for command in "dump", "query":
+            result = run(command, "-", input=scene, cwd=self.path)
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertEqual(json.loads(result.stdout)["signed_distance"], 2)
+
+    def test_query_stops_when_nobody_reads(self):
+        # As long as it reads, there is more; the files are for the statuses.
+        line = self.write("line", json.dumps(CUBES))
+        script = 'yes "$(cat "$1")" | { "$2" query -; echo $? > "$3"; } | head -1'
+        result = subprocess.run(["bash", "-c", script, "bash", line, PROGRAM, self.path / "status"], capture_output=True, text=True, timeout=120)
+        self.assertTrue(json.loads(result.stdout)["intersecting"])
+        self.assertEqual((self.path / "status").read_text(), "0\n")
+
     def test_query_in_order_with_bad_lines(self):
         lines = [json.dumps({**CUBES, "id": i}) for i in range(20)]
         lines[3] = "{nonsense"

@@ -282,6 +282,15 @@ RUNS = [
         '{"type":"support","direction":[1.0,-0.0,-0.0]}',
         '{"type":"result","intersecting":false,"signed_distance":1.0,"normal":[1.0,-0.0,-0.0],"witness_a":[1.0,0.0,0.0],"witness_b":[2.0,0.0,0.0]}',
     ], [("no-progress", "warning"), ("cycle", "warning")], ["here it merely costs"]),
+    ("the same simplex told again and again", "collinear-segments", [], [
+        '{"type":"support","direction":[1.0,0.0,0.0]}',
+        '{"type":"simplex","vertices":[0],"direction":[1,0,0]}',
+        '{"type":"simplex","vertices":[0],"direction":[1,0,0]}',
+        '{"type":"simplex","vertices":[0],"direction":[1,0,0]}',
+        '{"type":"simplex","vertices":[0],"direction":[1,0,0]}',
+        '{"type":"support","direction":[1.0,0.0,0.0]}',
+        '{"type":"result","intersecting":false,"signed_distance":1.0,"normal":[1.0,-0.0,-0.0],"witness_a":[1.0,0.0,0.0],"witness_b":[2.0,0.0,0.0]}',
+    ], [("cycle", "warning")], ["for the fourth time running, and no support was asked for in between"]),
     ("one vertex for both witnesses", "stacked-cubes", [], [
         '{"type":"support","direction":[1.0,0.0,0.0]}',
         '{"type":"simplex","vertices":[0],"direction":[-2.0,-0.0,1.9],"closest":[2.0,0.0,-1.9]}',

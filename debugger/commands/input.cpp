@@ -6,8 +6,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <iomanip>
+#include <optional>
 #include <sstream>
 
 #include "algo/solve.h"
@@ -77,17 +79,35 @@ CLI::Validator named() {
   return CLI::Validator([](std::string& text) { return text.empty() ? std::string("must name something, not \"\"") : std::string(); }, "");
 }
 
+namespace {
+
+std::string short_text(double x) {
+  std::ostringstream out;
+  out << std::setprecision(15) << x;
+  return out.str();
+}
+
+/// CLI11 reads a number that begins with 0 by eights.
+std::optional<double> number_in(const std::string& text, double low, double high) {
+  char* end = nullptr;
+  const double x = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == 0 && x >= low && x <= high ? std::optional(x) : std::nullopt;
+}
+
+}  // namespace
+
 CLI::Validator between(double low, double high) {
-  const auto short_text = [](double x) {
-    std::ostringstream out;
-    out << std::setprecision(15) << x;
-    return out.str();
-  };
+  const std::string range = short_text(low) + " to " + short_text(high);
+  return CLI::Validator([=](std::string& text) { return number_in(text, low, high) ? std::string() : "must be a number from " + range + ", not " + text; }, "in [" + range + "]");
+}
+
+CLI::Validator whole_between(double low, double high) {
   const std::string range = short_text(low) + " to " + short_text(high);
   const auto check = [=](std::string& text) {
-    double x = 0;
-    const bool number = CLI::detail::lexical_cast(text, x);
-    return number && x >= low && x <= high ? std::string() : "must be a number from " + range + ", not " + text;
+    const auto x = number_in(text, low, high);
+    if (!x || *x != std::floor(*x)) return "must be a whole number from " + range + ", not " + text;
+    text = short_text(*x);
+    return std::string();
   };
   return CLI::Validator(check, "in [" + range + "]");
 }
@@ -128,7 +148,7 @@ void MethodFlags::add_to(CLI::App& app) {
   app.add_option("--start", start_, "where GJK begins")->check(named_in(start_names))->group(group);
   app.add_option("--start_from,--start-from", start_from_, "recording with whose last simplex GJK begins")->check(named())->group(group);
   app.add_option("--tolerance", tolerance_, "relative gap of the bounds at which to stop; greater than 0 and less than 1")->check(between(0, 1))->group(group);
-  app.add_option("--max_iterations,--max-iterations", max_iterations_, "of each phase (512, and more for polytopes of many corners)")->check(between(1, 1000000))->group(group);
+  app.add_option("--max_iterations,--max-iterations", max_iterations_, "of each phase (512, and more for polytopes of many corners)")->transform(whole_between(1, 1000000))->group(group);
   app.add_option("--initial_direction,--initial-direction", initial_direction_, "first search direction, e.g. 1,0,0")->delimiter(',')->allow_extra_args(false)->group(group);  // or a scene's name after it is taken for a number
 }
 

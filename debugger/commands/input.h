@@ -38,6 +38,8 @@ CLI::Validator named();
 CLI::Validator one_of(std::vector<std::string> names);
 /// Of options that are a number: from `low` to `high`, and no NaN.
 CLI::Validator between(double low, double high);
+/// A whole number, however it is written: 010, 10.0 and 1e1 are ten. For `transform`.
+CLI::Validator whole_between(double low, double high);
 
 /// The method's settings as flags, named as in a scene file; those given override the scene's.
 class MethodFlags {

@@ -73,8 +73,10 @@ void OutputFile::fail() {
   throw Error("cannot-write", std::string("cannot be written: ") + std::strerror(errno), target_.empty() ? "standard output" : target_.string());
 }
 
-void OutputFile::write(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size() && !unwanted()) fail();
+bool OutputFile::write(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), file_) == text.size()) return true;
+  if (!unwanted()) fail();
+  return false;
 }
 
 void OutputFile::commit() {

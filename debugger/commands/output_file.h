@@ -17,7 +17,8 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  void write(std::string_view text);
+  /// False when nobody reads standard output any more.
+  bool write(std::string_view text);
   void commit();
 
  private:

@@ -62,15 +62,16 @@ class Queries {
     std::ifstream file;
     if (input != "-") {
       file = open_input(input);
-      directory_ = std::filesystem::path(input).parent_path();
+      directory_ = directory_of(input);
     }
     std::istream& in = input == "-" ? std::cin : file;
     OutputFile out(output);
     std::vector<std::string> lines(block_lines * static_cast<std::size_t>(jobs));
-    while (in) {
+    bool wanted = true;
+    while (in && wanted) {
       const std::size_t count = read_block(in, lines);
       for (const Answers& part : answer_block(lines, count)) {
-        out.write(part.text);
+        wanted = wanted && out.write(part.text);
         errors_ += part.errors, missed_ += part.missed;
         if (first_missed_ == 0) first_missed_ = part.first_missed;
         if (first_error_.empty()) first_error_ = part.first_error;
@@ -173,7 +174,7 @@ void add_query(CLI::App& app, Status& status) {
   CLI::App* command = app.add_subcommand("query", "A scene a line in (JSON lines), a result a line out, in order");
   command->add_option("PAIRS", query->input, "file of scenes, one a line; - for standard input; or a *.scene.json")->required()->check(named());
   command->add_option("-o,--output", query->output, "file to write; standard output unless given")->check(named());
-  command->add_option("-j,--jobs", query->jobs, "threads (1)")->check(between(1, 256));
+  command->add_option("-j,--jobs", query->jobs, "threads (1)")->transform(whole_between(1, 256));
   query->flags.add_to(*command);
   command->callback([query, &status] { status = query->run(); });
 }

@@ -56,7 +56,7 @@ void add_run(CLI::App& app, Status& status) {
   command->add_option("--exec", options->command, "the program, as a shell would start it")->required()->check(named());
   command->add_option("-o,--output", options->output, "file for the recording")->check(named());
   command->add_flag("--json", options->json, "findings as JSON");
-  command->add_option("--max-supports,--max_supports", options->limits.max_supports, "support queries (1000)")->check(between(1, 10000000));
+  command->add_option("--max-supports,--max_supports", options->limits.max_supports, "support queries (1000)")->transform(whole_between(1, 10000000));
   command->add_option("--timeout", options->limits.timeout, "seconds for the whole run (10)")->check(between(0.01, 86400.0));
   options->flags.add_to(*command);
   command->callback([options, &status] { status = options->run(); });

@@ -260,13 +260,13 @@ void add_sweep(CLI::App& app, Status& status) {
   CLI::App* command = app.add_subcommand("sweep", "The gallery and random scenes, or your own scenes, through your own GJK");
   command->add_option("SCENE", options->scenes, "scene files or gallery names, and no others (the gallery)")->check(named());
   command->add_option("--exec", options->command, "the program, as a shell would start it")->required()->check(named());
-  command->add_option("--random", options->random, "how many random scenes (100; with scenes named: none)")->check(between(0, 1000000));
-  command->add_option("--dimension", options->dimension, "only scenes of this dimension")->check(between(1, 3));
-  command->add_option("--seed", options->seed, "of the random scenes (1)")->check(between(0, 4294967295.0));
+  command->add_option("--random", options->random, "how many random scenes (100; with scenes named: none)")->transform(whole_between(0, 1000000));
+  command->add_option("--dimension", options->dimension, "only scenes of this dimension")->transform(whole_between(1, 3));
+  command->add_option("--seed", options->seed, "of the random scenes (1)")->transform(whole_between(0, 4294967295.0));
   command->add_option("-o,--output", options->output, "folder for the scenes that fail, shrunk")->check(named());
   command->add_option("--method", options->by, "gjk-accelerated: the program leads its directions by momentum (gjk)")->check(one_of({"gjk", "gjk-accelerated"}));
   command->add_option("--scalar", options->scalar, "float: the program counts in single precision (as the scene says)")->check(one_of({"double", "float"}));
-  command->add_option("--max-supports,--max_supports", options->limits.max_supports, "support queries a scene (1000)")->check(between(1, 10000000));
+  command->add_option("--max-supports,--max_supports", options->limits.max_supports, "support queries a scene (1000)")->transform(whole_between(1, 10000000));
   command->add_option("--timeout", options->limits.timeout, "seconds a scene (10)")->check(between(0.01, 86400.0));
   command->callback([options, &status] { status = options->run(); });
 }

@@ -341,8 +341,8 @@ void add_view(CLI::App& app, Status& status) {
   command->add_option("--exec", view->command, "show this solver's run on the scene, and again whenever its file changes")->check(named());
   command->add_option("--compare", view->beside, "another recording or scene, shown beside it, in step")->check(named());
   command->add_option("--scale", view->options.scale, "size of everything; the monitor's unless given")->check(between(0.5, 4.0));
-  command->add_option("--width", view->options.width, "of the window")->check(between(320, 16384));
-  command->add_option("--height", view->options.height, "of the window")->check(between(240, 16384));
+  command->add_option("--width", view->options.width, "of the window")->transform(whole_between(320, 16384));
+  command->add_option("--height", view->options.height, "of the window")->transform(whole_between(240, 16384));
   command->callback([view, &status] { status = view->run(); });
 }
 
@@ -355,8 +355,8 @@ void add_render(CLI::App& app, Status& status) {
   command->add_flag("--all", render->all, "the replay as an animation");
   command->add_flag("--light", render->light, "dark on white");
   command->add_flag("--window", render->window, "the whole window, not only the two views");
-  command->add_option("--width", render->width, "pixels")->check(between(64, 8192));
-  command->add_option("--height", render->height, "pixels")->check(between(64, 8192));
+  command->add_option("--width", render->width, "pixels")->transform(whole_between(64, 8192));
+  command->add_option("--height", render->height, "pixels")->transform(whole_between(64, 8192));
   command->add_option("--scale", render->scale, "size of text and marks")->check(between(0.5, 4.0));
   render->flags.add_to(*command);
   command->callback([render, &status] { status = render->run(); });

@@ -31,8 +31,9 @@ void ended(SolverProcess& process, SolverRecorder& recorder, SolverProcess::Dead
   const auto how = process.wait(std::min(deadline, std::chrono::steady_clock::now() + std::chrono::seconds(2)));
   const std::string after = " after " + std::to_string(recorder.supports()) + " support queries";
   if (how && !how->empty()) return recorder.abort("crash", "The solver ended with " + *how + after + ", before it gave a result. Its own error output says more.");
-  if (!rest.empty()) return recorder.abort("bad-message", "The solver ended in the middle of a line: " + shortened(rest));
-  recorder.abort("no-result", "The solver ended" + after + " without a \"result\" message. Print it last, and flush the output.");
+  const std::string what = how ? "The solver ended" : "The solver closed its output";
+  if (!rest.empty()) return recorder.abort("bad-message", what + " in the middle of a line: " + shortened(rest));
+  recorder.abort("no-result", what + after + " without a \"result\" message. Print it last, and flush the output.");
 }
 
 /// The result is the last message. Its maker may take what comes after for the answer.

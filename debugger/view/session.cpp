@@ -7,6 +7,7 @@
 #include "debugger/view/explain.h"
 #include "recordings/json_reading.h"
 #include "recordings/json_writing.h"
+#include "shapes/input_file.h"
 
 namespace gjkdbg {
 
@@ -80,11 +81,11 @@ void Session::open(const std::filesystem::path& file) {
   try {
     const Json json = parse_json(text);
     if (json.is_object() && json.contains("format") && json["format"] == "gjk-recording") {
-      Recording read = parse_recording(text, file.parent_path());
+      Recording read = parse_recording(text, directory_of(file));
       const std::string name = title(read.scene);
       open(std::move(read), name);
     } else {
-      SceneFile read = scene_from_json(json, file.parent_path());
+      SceneFile read = scene_from_json(json, directory_of(file));
       const std::string name = title(read);
       open(std::move(read), name);
     }
