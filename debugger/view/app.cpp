@@ -126,6 +126,8 @@ void App::frame() {
   find_bar();
   key_sheet();
   dialogs();
+  list_open_ = list_is_open();
+  choose_by_keys(list_open_);
 }
 
 void App::edit(const SceneFile& next) {
@@ -253,7 +255,7 @@ void App::top_bar(const Area& area) {
   };
   if (button("Open", "Open a scene or a recording (Ctrl-O)")) ask(Asking::open);
   if (button("Save", "Save the scene, the recording, a picture or the replay (Ctrl-S)")) ask(Asking::save);
-  if (button("Find", "Find a step (Ctrl-F)")) open_find_bar();
+  if (button("Find", find_.open ? "" : "Find a step (Ctrl-F)")) open_find_bar();  // whose field the words would cover
   if (button("Measure", "Speed against accuracy, stability where methods fail (X)")) show_lab = !show_lab, session.playing = false;
   if (all_fit && button("Explain", "Big text, for a hall (E)")) lecture = show_lab || !lecture, show_lab = false;
   if (all_fit && button(theme.dark ? "Light" : "Dark", "The other colours (T)")) preferences.dark = !preferences.dark;

@@ -77,7 +77,7 @@ class App {
   /// Where an edit has taken a body out of the views, or left it as a speck in them.
   void fit_what_has_left();
   /// For as long as it takes to read it.
-  void note(std::string text) { notice = std::move(text), notice_left_ = std::max(3.f, 0.08f * static_cast<float>(notice.size())); }
+  void note(std::string text, bool bad = false) { notice = std::move(text), notice_is_bad_ = bad, notice_left_ = std::max(3.f, 0.08f * static_cast<float>(notice.size())); }
   void drop_note() { notice_left_ = 0; }
 
   enum class Asking { nothing, open, save, compare, go_to };
@@ -106,7 +106,7 @@ class App {
   float scrubber_height() const;
   void small_panels(const Area& window, float top);
   void splitter(const char* name, const Area& area, bool vertical, float& value, float low, float high, float sign);
-  void banner(const Area& area);
+  void banner(const Area& above);
   void key_sheet();
   void dialogs();
   void file_dialog();
@@ -117,6 +117,7 @@ class App {
   void file_saved();
   void find_bar();
   void find_keys();
+  bool find_takes_letters();
   void find_while_typing();
   void find_next(bool backwards);
   void forget_found();
@@ -131,6 +132,8 @@ class App {
   Asking asking_ = Asking::nothing, asked_ = Asking::nothing;
   struct FindBar {
     bool open = false, wants_focus = false;
+    bool in_hand = false;              ///< nothing else was clicked on since: what is typed is for the field
+    bool to_its_end = false;           ///< typing goes on behind what is there
     char text[256] = {};
     std::size_t from = 0;              ///< where the text that is being typed is looked for from
     std::optional<std::size_t> found;  ///< by the last search
@@ -147,10 +150,14 @@ class App {
   std::vector<std::string> listed_;
   int go_to_ = 0;
   float notice_left_ = 0;  ///< seconds
+  bool notice_is_bad_ = false;
+  bool list_open_ = false;  ///< to choose from, at the end of the last frame
 };
 
 // --- Panels, each a file -------------------------------------------------------------------------------------------
 
+/// To choose from; not a dialog, nor what the rail of a narrow window has opened.
+bool list_is_open();
 void gallery_panel(App& app);
 void scene_panel(App& app);
 /// Of the scene panel, all bodies that it shows, each with what can be edited; true when edited.
@@ -189,6 +196,8 @@ void view_panels(App& app, const Area& area, bool interactive);
 bool begin_area(const char* name, const Area& area, bool scrolls = false);
 /// The same, with less of a margin where it is low.
 bool begin_panel(const Theme& theme, const char* name, const Area& area, bool scrolls = false);
+/// Whether an area is so low that its margin is 10 logical pixels wide.
+bool has_small_margin(const Theme& theme, const Area& area);
 /// What is left of a panel, scrolled for itself. Like begin_area, to be ended by ImGui::EndChild.
 bool begin_list(const char* name);
 void section(const Theme& theme, const char* title);

@@ -193,8 +193,10 @@ bool choose_type(Shape& shape, int dimension, double size, float room) {
   bool edited = false;
   ImGui::SetNextItemWidth(room);
   if (!ImGui::BeginCombo("##type", now.c_str(), ImGuiComboFlags_HeightLarge)) return false;
-  for (const std::string& type : types[dimension - 1])
+  for (const std::string& type : types[dimension - 1]) {
     if (ImGui::Selectable(type.c_str(), type == now) && type != now) shape = shape_of_type(type, dimension, size), edited = true;
+    if (type == now) ImGui::SetItemDefaultFocus();
+  }
   ImGui::EndCombo();
   return edited;
 }

@@ -144,7 +144,7 @@ void tooltip(const Theme& theme, const std::string& text) {
 }
 
 void tip_beside_row(const Theme& theme, const char* text) {
-  if (!ImGui::IsItemHovered()) return;
+  if (*text == 0 || !ImGui::IsItemHovered()) return;
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax(), size = ImGui::CalcTextSize(text), pad = ImGui::GetStyle().WindowPadding, window = ImGui::GetIO().DisplaySize;
   const float height = size.y + 2 * pad.y, gap = theme.px(5), below = high.y + gap;
   ImGui::SetNextWindowPos({std::max(0.f, std::min(low.x, window.x - size.x - 2 * pad.x)), below + height < window.y / 2 ? below : low.y - gap - height});
