@@ -341,7 +341,7 @@ std::string result_text(const Recording& recording) {
   if (r.signed_distance) {
     const double d = *r.signed_distance;
     const bool proven = !unproven(r);
-    text = d > 0 ? "apart, distance " + (proven ? short_number(d) : "at most " + short_number(*r.upper_bound)) : d == 0 ? "touching" : "overlapping, depth " + (proven ? short_number(-d) : "at most " + short_number(-*r.lower_bound));
+    text = d > 0 && r.lower_bound.value_or(d) <= 0 ? "seem apart, by at most " + short_number(r.upper_bound.value_or(d)) : d > 0 ? "apart, distance " + (proven ? short_number(d) : "at most " + short_number(*r.upper_bound)) : d == 0 ? "touching" : "overlapping, depth " + (proven ? short_number(-d) : "at most " + short_number(-*r.lower_bound));
     if (recording.scene.scene.query == Query::distance && r.intersecting) text = "overlapping";
   }
   return text;
