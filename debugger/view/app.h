@@ -217,8 +217,9 @@ void tip_beside_row(const Theme& theme, const char* text);
 void number_row(const Theme& theme, const char* label, const std::string& value, Colour colour);
 /// A click goes to `source`, the step that produced the number. `exact`: with all digits, for the tooltip and a right click, which copies it.
 void number_row(App& app, const char* label, const std::string& value, Colour colour, std::optional<std::size_t> source, const std::string& exact = {});
-/// With blanks behind it, so that numbers that end in one column have their points in one column; small ones with fewer digits.
-std::string at_the_point(double value);
+/// Numbers of one section, small ones with fewer digits: with blanks behind them, so that those that end in one column have their points in one column.
+/// What has no point, or an exponent, ends without.
+std::vector<std::string> at_one_point(const std::vector<double>& values);
 /// Numbers as they are shown, with all digits as `exact`.
 void number_row(App& app, const char* label, double value, Colour colour, std::optional<std::size_t> source = {});
 void number_row(App& app, const char* label, const AnyVector& value, Colour colour, std::optional<std::size_t> source = {}, int digits = 4);
@@ -250,6 +251,8 @@ std::string parting_text(const Session& session);
 std::string ending_text(const Session& session);
 /// Whether two runs come to the same, within 1e-9.
 bool answers_agree(const Result& a, const Result& b);
+/// The signed distance is at most as much, by EPA's first face, where that says more than the events so far.
+std::optional<double> bound_by_first_face(Session& session);
 /// "Step 14 of 22 · EPA iteration 1"
 std::string place_text(Session& session);
 /// Of ASCII letters: for comparisons in either case.
