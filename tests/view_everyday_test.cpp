@@ -42,6 +42,36 @@ TEST_F(Everyday, TypingFindsAndTheKeysStepOnBesideTheBar) {
   EXPECT_FALSE(app.finding());
 }
 
+/// After Return letters still are the text's, not keys; until something else is clicked on.
+TEST_F(Everyday, TypingGoesOnAfterReturn) {
+  const auto letter = [&](char c, Key key) {
+    ImGui::GetIO().AddInputCharacter(static_cast<unsigned>(c));
+    host.press(key);
+  };
+  const auto text = [] {
+    const ImGuiInputTextState& field = ImGui::GetCurrentContext()->InputTextState;
+    std::string all;
+    for (int i = 0; i < field.CurLenW; ++i) all += static_cast<char>(field.TextW[i]);
+    return all;
+  };
+  host.press(Key::f, false, true);
+  host.frame();
+  host.type("grow");
+  host.press(Key::enter);
+  const bool dark = app.preferences.dark;
+  letter('b', Key::b), letter('t', Key::t);
+  host.frame(), host.frame();
+  EXPECT_TRUE(session.breakpoints.empty());
+  EXPECT_EQ(app.preferences.dark, dark);
+  EXPECT_TRUE(ImGui::GetIO().WantTextInput);
+  EXPECT_EQ(text(), "growbt");
+  host.type("x");
+  EXPECT_EQ(text(), "growbtx");
+  host.click(620, 612);  // the scrubber
+  letter('b', Key::b);
+  EXPECT_FALSE(session.breakpoints.empty());
+}
+
 TEST_F(Everyday, AConditionThatIsNotFinishedIsNoMistake) {
   app.open_gallery("box-box-apart");
   session.go_to(3);

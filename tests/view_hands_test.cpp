@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <set>
 #include <string_view>
 
 #include "tests/support/window_fixture.h"
@@ -187,6 +188,95 @@ TEST_F(Hands, KeysBesideTheChartsChangeNothingOfTheScene) {
   EXPECT_TRUE(app.lecture && !app.show_lab);
   host.press(Key::x), host.press(Key::escape);
   EXPECT_TRUE(!app.show_lab);
+}
+
+/// What a field offers to be edited is the number, but for half a hundredth: where that has no room beside others the numbers stand in rows.
+TEST_F(Hands, FindTheirNumbersInTheFields) {
+  const std::vector<double> place{12345.678, 1.5, 1.9e20};
+  SceneFile next = session.scene();
+  for (int i = 0; i < 3; ++i) next.scene.bodies[0].pose.position[i] = place[static_cast<std::size_t>(i)];
+  next.scene.bodies[1].pose.position = next.scene.bodies[0].pose.position;
+  ASSERT_EQ(session.edit(next), "");
+  host.frame(), host.frame();
+  std::set<std::string> offered;
+  const ImGuiInputTextState& field = ImGui::GetCurrentContext()->InputTextState;
+  for (float y = 170; y < 420; y += 9) {
+    host.click(150, y);
+    host.frame();
+    if (!ImGui::GetIO().WantTextInput) continue;
+    std::string text;
+    for (int i = 0; i < field.CurLenW; ++i) text += static_cast<char>(field.TextW[i]);
+    offered.insert(text);
+    host.press(Key::escape);
+    host.frame();
+  }
+  for (const char* text : {"12345.7", "1.5", "1.9e+20"}) EXPECT_TRUE(offered.contains(text)) << text;
+  EXPECT_EQ(session.scene().scene.bodies[0].pose.position, next.scene.bodies[0].pose.position) << "a look changes nothing";
+}
+
+/// Up, Down and Return, as in any list.
+TEST_F(Hands, ChooseFromAListByKeys) {
+  const auto down = [&] {
+#if IMGUI_VERSION_NUM < 18700
+    bool& key = ImGui::GetIO().KeysDown[ImGui::GetIO().KeyMap[ImGuiKey_DownArrow]];
+    key = true, host.frame(), key = false, host.frame();
+#else
+    ImGui::GetIO().AddKeyEvent(ImGuiKey_DownArrow, true), host.frame();
+    ImGui::GetIO().AddKeyEvent(ImGuiKey_DownArrow, false), host.frame();
+#endif
+  };
+  const auto open_list = [&] {
+    host.click(180, 181);  // what body A is
+    host.frame(), host.frame();
+    return list_is_open();
+  };
+  session.go_to(3);
+  const std::string before = type_name(session.scene().scene.bodies[0].shape, 3);
+  ASSERT_TRUE(open_list());
+  down();
+  host.press(Key::escape);
+  host.frame();
+  EXPECT_FALSE(list_is_open());
+  EXPECT_EQ(type_name(session.scene().scene.bodies[0].shape, 3), before);
+  ASSERT_TRUE(open_list());
+  down();
+  host.press(Key::enter);
+  host.frame();
+  EXPECT_FALSE(list_is_open());
+  EXPECT_EQ(type_name(session.scene().scene.bodies[0].shape, 3), "sphere") << "the one below";
+  EXPECT_EQ(ImGui::GetIO().ConfigFlags & ImGuiConfigFlags_NavEnableKeyboard, 0) << "the arrows are the steps' again";
+}
+
+/// A body that is dragged out of what is seen, or that drags the difference out of it; but not the view of whoever looks at a part.
+TEST_F(Hands, LetGoOfABodyWithinTheView) {
+  const ViewRectangle view{282, 54 + 48 * 0.6, 325, 474 - 48 * 0.6};
+  const auto drag = [&](float dx, float dy) {
+    const Projected at = Projection(app.world_camera, view)(to_view(session.scene().scene.bodies[1].pose.position));
+    const auto x = static_cast<float>(at.x), y = static_cast<float>(at.y);
+    host.drag(x, y, x + dx, y + dy);
+    host.frame(), host.frame();
+  };
+  const auto whole = [&] {
+    const Projection projection(app.world_camera, view);
+    for (const DisplayMesh& mesh : session.meshes().bodies)
+      for (const ViewPoint& p : mesh.points)
+        if (const Projected at = projection(p); !view.contains(at.x, at.y)) return false;
+    return true;
+  };
+  ASSERT_TRUE(whole());
+  const double radius = app.world_camera.radius;
+  drag(8, -4);
+  EXPECT_EQ(app.world_camera.radius, radius) << "all of it is still seen";
+  drag(76, -58);
+  EXPECT_TRUE(whole());
+  EXPECT_NE(app.world_camera.radius, radius);
+  app.world_camera.radius /= 3, app.difference_camera.radius /= 5;
+  app.world_camera.target = to_view(session.scene().scene.bodies[1].pose.position);
+  host.frame();
+  ASSERT_FALSE(whole());
+  const double near = app.world_camera.radius;
+  drag(20, -10);
+  EXPECT_EQ(app.world_camera.radius, near);
 }
 
 /// Of what people make of a window at the edge of their screen.

@@ -221,11 +221,22 @@ TEST_F(OpenRun, IsFoundInTheGalleryByWords) {
 }
 
 TEST(Numbers, HaveTheirPointsInOneColumn) {
-  for (const double x : {0.0, 1.0, -2.5, 0.0652777, 3.09327, 1.54e-14, -1e300, 123456.0, 0.1234567, 7e-5}) {
-    const std::string text = at_the_point(x);
-    EXPECT_EQ(text.size() - text.find_first_of(".e "), 7u) << "'" << text << "'";
-    EXPECT_NEAR(std::stod(text), x, 5e-3 * std::abs(x));
+  const std::vector<double> values{0.0, 1.0, -2.5, 0.0652777, 3.09327, 1.54e-14, -1e300, 123456.0, 0.1234567, 7e-5};
+  const std::vector<std::string> texts = at_one_point(values);
+  ASSERT_EQ(texts.size(), values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const std::string& text = texts[i];
+    EXPECT_NEAR(std::stod(text), values[i], 5e-3 * std::abs(values[i]));
+    if (text.find('.') != std::string::npos && text.find('e') == std::string::npos) EXPECT_EQ(text.size() - text.find('.'), 7u) << "'" << text << "'";
+    else EXPECT_NE(text.back(), ' ') << "'" << text << "' ends at the column's edge";
   }
+}
+
+/// Blanks that align nothing would only move a number off the edge at which all others end.
+TEST(Numbers, EndAtTheEdgeWhereNothingIsToBeAligned) {
+  EXPECT_EQ(at_one_point({-2.5}), std::vector<std::string>{"-2.5"});
+  EXPECT_EQ(at_one_point({5.84e-15, -0.1, 0.1}), (std::vector<std::string>{"5.84e-15", "-0.1", "0.1"}));
+  EXPECT_EQ(at_one_point({0.25, 0.5, 1}), (std::vector<std::string>{"0.25", "0.5 ", "1"}));
 }
 
 TEST_F(OpenRun, NoFileIsSavedOverUnasked) {

@@ -1,4 +1,5 @@
 // That what the window says is so: of numbers beyond all bounds, of bounds of an overlap, of ends at which nothing follows, of bodies while a ray is cast.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -34,12 +35,86 @@ TEST_F(Truth, BoundsOfAnOverlapAreThoseOfTheDepth) {
   const auto meaning = [&](const char* ring) { return meaning_of(ring, false, session.frame(), session.recording()); };
   session.go_to(17);
   ASSERT_LT(session.frame().upper_bound.value(), 0);
-  EXPECT_NE(meaning("at most").find("nothing of the border is nearer"), std::string::npos);
-  EXPECT_NE(meaning("at least").find("at least this near"), std::string::npos);
+  EXPECT_NE(meaning("depth at least").find("nothing of the border is nearer"), std::string::npos);
+  EXPECT_NE(meaning("depth at most").find("at least this near"), std::string::npos);
   app.open_gallery("box-box-apart");
   session.go_to(session.count() - 2);
   EXPECT_NE(meaning("at most").find("at least this near"), std::string::npos);
   EXPECT_NE(meaning("at least").find("nothing of the border is nearer"), std::string::npos);
+}
+
+/// A ring of an overlap is named by what it says of the depth, as the panel's rows are of the signed distance.
+TEST_F(Truth, RingsOfAnOverlapAreNamedByTheDepth) {
+  const auto names = [&] {
+    const ViewRectangle view{0, 0, 600, 600};
+    std::vector<std::string> all;
+    for (const PictureLabel& label : difference_picture(session.meshes(), session.recording(), session.frame(), app.settings, dark_palette, Projection(app.difference_camera, view)).labels)
+      if (label.text.find("at ") != std::string::npos) all.push_back(label.text);
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  session.go_to(17);
+  ASSERT_LT(session.frame().upper_bound.value(), 0);
+  EXPECT_EQ(names(), (std::vector<std::string>{"depth at least", "depth at most"}));
+  app.open_gallery("box-box-apart");
+  host.frame();
+  session.go_to(6);
+  ASSERT_GT(session.frame().upper_bound.value(), 0);
+  for (const std::string& name : names()) EXPECT_EQ(name.find("depth"), std::string::npos) << name;
+}
+
+/// What is shown as the upper bound never rises while EPA goes on: a face's distance does not allow for rounding, the events do.
+TEST_F(Truth, TheUpperBoundOfEpaNeverRises) {
+  for (const char* name : {"two-unit-cubes", "box-box-deep", "identical-cubes", "2d-deep", "sphere-in-box", "obb-edge-edge", "hull-tetrahedra"}) {
+    app.open_gallery(name);
+    double last = std::numeric_limits<double>::infinity();
+    int seen = 0;
+    for (std::size_t i = 0; i < session.count(); ++i) {
+      const Event& event = session.recording().events[i];
+      if (phase_of(event) != 1 || std::holds_alternative<recorded::EpaEnded>(event)) continue;  // from the end on it is the result's, rounded once more
+      session.go_to(i);
+      const auto shown = bound_by_first_face(session) ? bound_by_first_face(session) : session.frame().upper_bound;
+      if (!shown) continue;
+      EXPECT_LE(*shown, last) << name << " " << i;
+      last = *shown, ++seen;
+    }
+    EXPECT_GT(seen, 0) << name;
+  }
+}
+
+/// The captions tell what is drawn at the step.
+TEST_F(Truth, ACaptionIsOfWhatIsDrawn) {
+  const auto drawn = [&](std::size_t step, const auto& make, const Camera& camera) {
+    session.go_to(step);
+    return make(session.meshes(), session.recording(), session.frame(), app.settings, dark_palette, Projection(camera, ViewRectangle{0, 0, 600, 600})).shown;
+  };
+  using Drawn = std::vector<std::string>;
+  EXPECT_EQ(drawn(0, world_picture, app.world_camera), Drawn{});
+  EXPECT_EQ(drawn(1, world_picture, app.world_camera), Drawn{"supports"});
+  EXPECT_EQ(drawn(4, difference_picture, app.difference_camera), (Drawn{"region", "simplex", "direction", "nearest point", "bounds"}));
+  EXPECT_EQ(drawn(17, difference_picture, app.difference_camera), (Drawn{"polytope", "direction", "bounds"}));
+  EXPECT_EQ(drawn(session.count() - 1, world_picture, app.world_camera), (Drawn{"witnesses", "normal"}));
+}
+
+/// Nothing is called apart that is not proven so.
+TEST_F(Truth, SeemingApartIsNoProof) {
+  app.open_gallery("end-epa-separated");
+  ASSERT_LE(session.recording().result.lower_bound.value(), 0);
+  EXPECT_NE(told_at_the_end().find("seem to be apart"), std::string::npos) << told_at_the_end();
+  EXPECT_TRUE(result_text(session.recording()).starts_with("seem apart")) << result_text(session.recording());
+}
+
+/// The way out may be that of a face which has been removed since.
+TEST_F(Truth, AFaceThatIsGoneIsSaidToBe) {
+  app.open_gallery("identical-cubes");
+  EXPECT_NE(told_at_the_end().find("a face that was there before (face 0, chosen at step 13)"), std::string::npos) << told_at_the_end();
+}
+
+/// GJK that ends on the origin has not told touch from overlap where EPA is still to come.
+TEST_F(Truth, TouchOrOverlapIsLeftToEpa) {
+  app.open_gallery("two-unit-cubes");
+  session.go_to(5);
+  EXPECT_EQ(explain(session.recording(), session.frame()).title, "GJK ends: touching or overlapping");
 }
 
 TEST_F(Truth, NothingIsAnnouncedThatDoesNotCome) {

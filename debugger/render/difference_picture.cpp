@@ -26,11 +26,12 @@ class DifferencePainter : public Painter {
     ray();
     fading();
     simplex();
-    bound_rings();
+    const bool rings = bound_rings();
     origin();
     direction();
     closest();
     vertices();
+    if (rings) shows("bounds");
     return std::move(picture_);
   }
 
@@ -90,6 +91,7 @@ class DifferencePainter : public Painter {
   }
 
   void polytope() {
+    if (!frame_.faces.empty()) shows("polytope");
     for (const auto& [number, f] : frame_.faces) {
       const bool chosen = frame_.chosen == number, added = std::find(frame_.added.begin(), frame_.added.end(), number) != frame_.added.end();
       const Colour colour = chosen ? palette_.chosen : added ? palette_.frontier : palette_.simplex;
@@ -107,6 +109,7 @@ class DifferencePainter : public Painter {
     if (frame_.epa_status == EpaStatus::iteration_limit && recording_.scene.scene.query == Query::cast && !recording_.result.normal) return;  // nor is this, the answer says
     const ViewPoint tip = to_view(*frame_.normal) * std::max(0.0, *frame_.depth - meshes_.radius);
     if (!(tip.norm() > 1e-6 * unit())) return;
+    shows("way out");
     picture_.lines.push_back({ViewPoint::Zero(), tip, palette_.text, 3, Stroke::solid, true, true});  // not the chosen face's colour, before which it lies
     area_label(tip / 2, meshes_.radius > 0 ? "depth of the cores" : "depth", palette_.text);
   }
@@ -150,6 +153,7 @@ class DifferencePainter : public Painter {
     const ViewPoint ahead = -inside;
     picture_.lines.push_back({inside, ahead.isZero(0) ? inside : tip_in_view(ViewPoint::Zero(), ahead.stableNormalized() * unit() * 0.8), palette_.text_soft, 1.6, Stroke::dashed, true, true});
     if (frame_.portal.empty()) return;
+    shows("portal");
     for (const int v : frame_.portal)
       if (const FrameVertex* p = vertex(v)) picture_.line(inside, to_view(p->w), palette_.chosen.with_alpha(0.5), 1.3);
     face({-1, 0, frame_.portal, {}, 0}, palette_.chosen, 0.4, 2.6);
@@ -168,6 +172,7 @@ class DifferencePainter : public Painter {
         break;
       }
     if (r.isZero(0) || !(clipped <= 1)) return;
+    shows("ray");
     const ViewPoint tip = tip_in_view(ViewPoint::Zero(), r);  // where the ray goes is what counts
     picture_.lines.push_back({ViewPoint::Zero(), tip, palette_.text_soft, 1.6, Stroke::dashed, true, true});
     picture_.points.push_back({clipped * r, palette_.chosen, 8, Mark::ring, -1});
@@ -178,6 +183,7 @@ class DifferencePainter : public Painter {
   /// The difference of two segments, by the corner and the two edges of the formula.
   void parallelogram() {
     if (!frame_.parallelogram) return;
+    shows("parallelogram");
     const ViewPoint corner = to_view(frame_.parallelogram->corner), a = to_view(frame_.parallelogram->edge_a), b = -to_view(frame_.parallelogram->edge_b);
     picture_.faces.push_back({{corner, corner + a, corner + a + b, corner + b}, palette_.simplex.with_alpha(0.18)});
     picture_.line(corner + b, corner + a + b, palette_.body_a.with_alpha(0.6), 1.4);
@@ -201,6 +207,7 @@ class DifferencePainter : public Painter {
       points.push_back(to_view(p->w));
     }
     if (part.size() != e->region.size()) return;
+    shows("region");
     draw_region(picture_, points, part, 3 * unit(), palette_.simplex, meshes_.dimension);
     ViewPoint middle = ViewPoint::Zero();
     std::string name;
@@ -243,25 +250,40 @@ class DifferencePainter : public Painter {
     return std::nullopt;
   }
 
+  /// Of a ring that lies outside of the view all but a corner's dash or two would be a stray line.
+  bool is_seen(double radius) const {
+    int seen = 0;
+    for (double turn = 0; turn < 2 * M_PI; turn += M_PI / 32) {
+      const Projected p = projection_((std::cos(turn) * projection_.right() + std::sin(turn) * projection_.up()) * radius);
+      seen += projection_.rectangle().contains(p.x, p.y);
+    }
+    return seen >= 8;
+  }
+
   /// The surface of A - B is nowhere nearer than the one ring and somewhere no farther than the other.
-  void bound_rings() {
-    if (!settings_.bounds || meshes_.dimension == 1) return;
-    const auto ring_at = [&](double bound, const char* name, Colour colour) {
+  bool bound_rings() {
+    if (!settings_.bounds || meshes_.dimension == 1) return false;
+    bool drawn = false;
+    const auto ring_at = [&](double bound, bool upper, bool named, Colour colour) {
       const double r = std::abs(bound + meshes_.radius);
-      if (!std::isfinite(r) || !(r > 1e-3 * unit()) || r > 50 * unit()) return;
-      if (const auto at = place_on_ring(r); at && *name && r > 0.15 * unit()) small_label(*at, name, palette_.text_faint, true);
+      if (!std::isfinite(r) || !(r > 1e-3 * unit()) || r > 50 * unit() || !is_seen(r)) return;
+      const bool deep = bound + meshes_.radius < 0;  // the distance is at most -1: the depth is at least 1
+      if (const auto at = place_on_ring(r); at && named && r > 0.15 * unit()) small_label(*at, std::string(deep ? "depth " : "") + (upper != deep ? "at most" : "at least"), palette_.text_faint, true);
+      drawn = true;
       if (flat()) ring(r, ViewPoint::UnitX(), ViewPoint::UnitY(), colour);
       else ring(r, projection_.right(), projection_.up(), colour);
     };
-    if (frame_.upper_bound) ring_at(*frame_.upper_bound, "at most", palette_.text_soft.with_alpha(0.5));
+    if (frame_.upper_bound) ring_at(*frame_.upper_bound, true, true, palette_.text_soft.with_alpha(0.5));
     const bool meet = frame_.lower_bound && frame_.upper_bound && std::abs(*frame_.upper_bound - *frame_.lower_bound) < 0.02 * unit();
-    if (frame_.lower_bound && frame_.lower_bound != frame_.upper_bound) ring_at(*frame_.lower_bound, meet ? "" : "at least", palette_.text_faint.with_alpha(0.4));
+    if (frame_.lower_bound && frame_.lower_bound != frame_.upper_bound) ring_at(*frame_.lower_bound, false, !meet, palette_.text_faint.with_alpha(0.4));
+    return drawn;
   }
 
   void simplex() {
     std::vector<ViewPoint> points;
     for (const int v : frame_.simplex)
       if (const FrameVertex* p = vertex(v)) points.push_back(to_view(p->w));
+    if (!points.empty()) shows("simplex");
     for (std::size_t i = 0; i < points.size(); ++i)
       for (std::size_t j = i + 1; j < points.size(); ++j) picture_.line(points[i], points[j], palette_.simplex, meshes_.dimension == 1 ? 5 : 2.4);
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -283,6 +305,7 @@ class DifferencePainter : public Painter {
     const ViewPoint tip = tip_in_view(ViewPoint::Zero(), d);
     picture_.arrow(ViewPoint::Zero(), tip, palette_.simplex);
     label(tip, "d", palette_.simplex);
+    shows("direction");
     if (settings_.support_plane && frame_.answered) support_plane(d.normalized());
   }
 
@@ -290,6 +313,7 @@ class DifferencePainter : public Painter {
   void support_plane(const ViewPoint& d) {
     const FrameVertex* newest = frame_.newest ? vertex(*frame_.newest) : nullptr;
     if (!newest) return;
+    shows("support plane");
     const ViewPoint w = to_view(newest->w), foot = d * d.dot(w);
     const double reach = 0.75 * unit();
     const Colour colour = palette_.frontier;
@@ -322,6 +346,7 @@ class DifferencePainter : public Painter {
     if (!nearest || !frame_.faces.empty()) return;
     const ViewPoint v = to_view(*nearest);
     if (v.norm() > 1e-6 * unit()) {
+      shows("nearest point");
       picture_.lines.push_back({ViewPoint::Zero(), v, palette_.text_soft, 1.6, Stroke::dashed, false, true});
       picture_.points.push_back({v, palette_.text, 6, Mark::ring, -1});
       name_dot(v, "v", palette_.text);

@@ -1,6 +1,8 @@
 // What the two views of a step share: grid, meshes, labels, arrows.
 #pragma once
 
+#include <algorithm>
+
 #include "debugger/render/step_pictures.h"
 
 namespace gjkdbg {
@@ -33,6 +35,11 @@ class Painter {
 
   /// The tip of an arrow whose length means nothing: nearer, down to a fifth, where it would touch the view's border.
   ViewPoint tip_in_view(const ViewPoint& from, const ViewPoint& along) const;
+
+  /// For the caption; once.
+  void shows(const char* what) {
+    if (std::find(picture_.shown.begin(), picture_.shown.end(), what) == picture_.shown.end()) picture_.shown.emplace_back(what);
+  }
 
   double round_step(double pixels) const;
   void grid();

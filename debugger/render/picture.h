@@ -50,6 +50,7 @@ struct Picture {
   std::vector<PictureLabel> labels;
   std::vector<PicturePoint> kept_free;     ///< not drawn: labels keep off them, for something of the window's lies there
   std::vector<PictureLabel> scale_marks;  ///< small, under everything, never moved apart
+  std::vector<std::string> shown;          ///< what of the step is drawn, besides what every step has
   double covered = 0;                     ///< pixels below the view's upper border: labels keep off them, too, for a title lies there
 
   void line(const ViewPoint& from, const ViewPoint& to, Colour colour, double width = 1.5, Stroke stroke = Stroke::solid) {

@@ -130,6 +130,7 @@ class WorldPainter : public Painter {
       const ViewPoint v = to_view(frame_.places[i].velocity);
       if (!(v.norm() > least_share * fastest)) continue;
       const ViewPoint from = to_view(frame_.places[i].position) + one_d_offset(static_cast<int>(i)), tip = tip_in_view(from, v * (velocity_arrow * unit() / fastest));
+      shows("velocities");
       picture_.arrow(from, tip, palette_.support);
       if (named(static_cast<int>(i))) label(tip, "velocity" + of_body(i) + " " + three_digits(v.norm()), palette_.support);
     }
@@ -156,6 +157,7 @@ class WorldPainter : public Painter {
       if (((!newest && !in_simplex) || over) && !selected) continue;
       const ViewPoint a = to_view(v.a) + one_d_offset(frame_.pair[0]), b = to_view(v.b) + one_d_offset(frame_.pair[1]);
       const Colour colour = newest ? palette_.support : palette_.support.with_alpha(0.45);
+      shows("supports");
       picture_.points.push_back({a, colour, newest ? 6.0 : 4.0, Mark::disc, number});
       picture_.points.push_back({b, colour, newest ? 6.0 : 4.0, Mark::square, number});
       if (selected) mark_selected(a), mark_selected(b), picture_.line(a, b, palette_.text, 1, Stroke::dashed);
@@ -183,6 +185,7 @@ class WorldPainter : public Painter {
     const auto* e = std::get_if<recorded::PointsProjected>(&recording_.events[frame_.step]);
     if (!e) return;
     const ViewPoint a = to_view(e->a) + one_d_offset(frame_.pair[0]), b = to_view(e->b) + one_d_offset(frame_.pair[1]);
+    shows("nearest points in turn");
     picture_.line(a, b, palette_.simplex, 1.6, Stroke::dashed);
     if (frame_.predicted) picture_.line(to_view(*frame_.predicted) + one_d_offset(frame_.pair[0]), b, palette_.chosen, 1.2, Stroke::dashed);
     picture_.points.push_back({a, palette_.simplex, 6, Mark::disc, -1});
@@ -216,6 +219,7 @@ class WorldPainter : public Painter {
     if (moves() && r.time && frame_.time != r.time) return;  // the bodies have moved on since
     const auto pair = r.pair.value_or(frame_.pair);
     const ViewPoint a = to_view(*r.witness_a) + one_d_offset(pair[0]), b = to_view(*r.witness_b) + one_d_offset(pair[1]);
+    shows("witnesses");
     picture_.lines.push_back({a, b, palette_.frontier, 2.5, Stroke::solid, false, true});
     picture_.points.push_back({a, palette_.body_a, 6, Mark::disc, -1});
     picture_.points.push_back({b, palette_.body_b, 6, Mark::disc, -1});
@@ -224,11 +228,13 @@ class WorldPainter : public Painter {
     label(a, witness + "a", palette_.body_a, 9, beside);
     label(b, witness + "b", palette_.body_b, 9, -beside);
     if (r.normal) {
+      shows("normal");
       const ViewPoint tip = tip_in_view(a, arrow_along(*r.normal, normal_arrow));
       picture_.arrow(a, tip, palette_.frontier);
       label(tip, "n", palette_.frontier);
     }
     if (!r.contacts) return;
+    if (!r.contacts->empty()) shows("contact points");
     for (std::size_t i = 0; i < r.contacts->size(); ++i) {
       const ContactPoint& c = (*r.contacts)[i];
       picture_.points.push_back({to_view(c.point_a), palette_.chosen, 5, Mark::square, -1});

@@ -5,6 +5,7 @@
 
 #include "debugger/view/explain.h"
 #include "debugger/view/input.h"
+#include "debugger/view/step_notes.h"
 #include "recordings/json_writing.h"
 
 #include <nlohmann/json.hpp>
@@ -17,6 +18,14 @@ App::App(Gallery gallery, float scale) : gallery_(std::move(gallery)) {
   ImGui::GetIO().IniFilename = nullptr;
   ImGui::GetIO().ConfigDragClickToInputText = true;
 }
+
+namespace {
+
+bool has_errors(const std::vector<Finding>& findings) {
+  return std::any_of(findings.begin(), findings.end(), [](const Finding& f) { return f.severity == Finding::Severity::error; });
+}
+
+}  // namespace
 
 void App::open(const std::filesystem::path& file) {
   try {
@@ -38,7 +47,7 @@ void App::open_or_throw(const std::filesystem::path& file) {
   settings.selected.reset();
   if (session.findings().empty()) return;
   session.go_to(session.findings().front().step);  // what is looked for
-  note("at the first finding; Home is the beginning");
+  note("at the first finding; Home is the beginning", has_errors(session.findings()));
 }
 
 namespace {
@@ -68,7 +77,8 @@ void App::show_run(Recording run) {
   }
   if (follows) session.go_to(session.findings().front().step);
   note(at_first_finding() ? std::string(again ? "run again: " : "") + "at the first finding; Home is the beginning"
-                          : "run again: the first finding is at step " + std::to_string(session.findings().front().step));
+                          : "run again: the first finding is at step " + std::to_string(session.findings().front().step),
+       has_errors(session.findings()));
 }
 
 void App::open_gallery(const std::string& name) { open(gallery_.file(name)); }
@@ -126,6 +136,8 @@ void App::frame() {
   find_bar();
   key_sheet();
   dialogs();
+  list_open_ = list_is_open();
+  choose_by_keys(list_open_);
 }
 
 void App::edit(const SceneFile& next) {
@@ -134,28 +146,30 @@ void App::edit(const SceneFile& next) {
   if (theirs && message.empty()) note("solved by gjkdbg's own method from here on; Ctrl-Z brings your solver's run back");
 }
 
-/// What went wrong, over the views, until something succeeds or it is clicked away; what was done, for a while.
-void App::banner(const Area& area) {
+/// What went wrong, until something succeeds or it is clicked away; what was done, for a while. At the lower end of what is shown, off the titles.
+void App::banner(const Area& above) {
   const bool error = !message.empty();
   if (!error && notice_left_ <= 0 && running.empty()) return;
   const std::string& text = error ? message : notice_left_ > 0 ? notice : running;
-  const float wrap = area.width - theme.px(60);
+  const float wrap = above.width - theme.px(60);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
-  const float width = std::min(area.width, size.x + theme.px(60)), height = size.y + theme.px(22), x = area.x + (area.width - width) / 2;
+  const float width = std::min(above.width, size.x + theme.px(60)), height = size.y + theme.px(22), x = above.x + (above.width - width) / 2, y = above.y + above.height - height;
+  const bool bad = error || (notice_left_ > 0 && notice_is_bad_);
+  const Colour fill = bad ? theme.palette.newest.shaded(-0.15) : theme.palette.hover;
   ImGui::PushStyleColor(ImGuiCol_ChildBg, ImVec4());
-  begin_area("banner", {x, area.y, width, height});
+  begin_area("banner", {x, y, width, height});
   // In its own draw list: ImGui may draw a child's background with the parent's, below what the views have drawn.
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->PushClipRectFullScreen();
-  draw->AddRectFilled({x, area.y}, {x + width, area.y + height}, packed((error ? theme.palette.newest : theme.palette.support).shaded(-0.15)), theme.px(8));
+  draw->AddRectFilled({x, y}, {x + width, y + height}, packed(fill), theme.px(8));
   draw->PopClipRect();
   ImGui::SetCursorPos({(width - size.x) / 2, (height - size.y) / 2});
-  ImGui::PushStyleColor(ImGuiCol_Text, vec(rgb(0xffffff)));
+  ImGui::PushStyleColor(ImGuiCol_Text, vec(bad ? rgb(0xffffff) : theme.palette.text));
   ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + wrap);
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
-  if (error) draw->AddText({x + width - theme.px(22), area.y + (height - ImGui::GetTextLineHeight()) / 2}, packed(rgb(0xffffff)), "\xC3\x97");
+  if (error) draw->AddText({x + width - theme.px(22), y + (height - ImGui::GetTextLineHeight()) / 2}, packed(rgb(0xffffff)), "\xC3\x97");
   if (error && ImGui::IsWindowHovered()) {
     ImGui::SetTooltip("click to close");
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) message.clear();
@@ -213,9 +227,10 @@ void App::lecture_panel(const Area& area) {
     ImGui::PopFont();
     lecture_place(place_text(session));
     ImGui::PushFont(theme.lecture);
+    finding_first(*this);
     wrapped(e.text, theme.palette.text_soft);
     for (const Finding& f : session.findings())
-      if (f.step == session.step()) wrapped(f.message, theme.palette.newest);
+      if (f.step == session.step() && &f != error_here(session)) wrapped(f.message, theme.palette.newest);
     ImGui::PopFont();
     ImGui::SetWindowFontScale(1);
   }
@@ -253,7 +268,7 @@ void App::top_bar(const Area& area) {
   };
   if (button("Open", "Open a scene or a recording (Ctrl-O)")) ask(Asking::open);
   if (button("Save", "Save the scene, the recording, a picture or the replay (Ctrl-S)")) ask(Asking::save);
-  if (button("Find", "Find a step (Ctrl-F)")) open_find_bar();
+  if (button("Find", find_.open ? "" : "Find a step (Ctrl-F)")) open_find_bar();  // whose field the words would cover
   if (button("Measure", "Speed against accuracy, stability where methods fail (X)")) show_lab = !show_lab, session.playing = false;
   if (all_fit && button("Explain", "Big text, for a hall (E)")) lecture = show_lab || !lecture, show_lab = false;
   if (all_fit && button(theme.dark ? "Light" : "Dark", "The other colours (T)")) preferences.dark = !preferences.dark;

@@ -77,7 +77,7 @@ class App {
   /// Where an edit has taken a body out of the views, or left it as a speck in them.
   void fit_what_has_left();
   /// For as long as it takes to read it.
-  void note(std::string text) { notice = std::move(text), notice_left_ = std::max(3.f, 0.08f * static_cast<float>(notice.size())); }
+  void note(std::string text, bool bad = false) { notice = std::move(text), notice_is_bad_ = bad, notice_left_ = std::max(3.f, 0.08f * static_cast<float>(notice.size())); }
   void drop_note() { notice_left_ = 0; }
 
   enum class Asking { nothing, open, save, compare, go_to };
@@ -106,7 +106,7 @@ class App {
   float scrubber_height() const;
   void small_panels(const Area& window, float top);
   void splitter(const char* name, const Area& area, bool vertical, float& value, float low, float high, float sign);
-  void banner(const Area& area);
+  void banner(const Area& above);
   void key_sheet();
   void dialogs();
   void file_dialog();
@@ -117,6 +117,7 @@ class App {
   void file_saved();
   void find_bar();
   void find_keys();
+  bool find_takes_letters();
   void find_while_typing();
   void find_next(bool backwards);
   void forget_found();
@@ -131,6 +132,8 @@ class App {
   Asking asking_ = Asking::nothing, asked_ = Asking::nothing;
   struct FindBar {
     bool open = false, wants_focus = false;
+    bool in_hand = false;              ///< nothing else was clicked on since: what is typed is for the field
+    bool to_its_end = false;           ///< typing goes on behind what is there
     char text[256] = {};
     std::size_t from = 0;              ///< where the text that is being typed is looked for from
     std::optional<std::size_t> found;  ///< by the last search
@@ -147,10 +150,14 @@ class App {
   std::vector<std::string> listed_;
   int go_to_ = 0;
   float notice_left_ = 0;  ///< seconds
+  bool notice_is_bad_ = false;
+  bool list_open_ = false;  ///< to choose from, at the end of the last frame
 };
 
 // --- Panels, each a file -------------------------------------------------------------------------------------------
 
+/// To choose from; not a dialog, nor what the rail of a narrow window has opened.
+bool list_is_open();
 void gallery_panel(App& app);
 void scene_panel(App& app);
 /// Of the scene panel, all bodies that it shows, each with what can be edited; true when edited.
@@ -189,6 +196,8 @@ void view_panels(App& app, const Area& area, bool interactive);
 bool begin_area(const char* name, const Area& area, bool scrolls = false);
 /// The same, with less of a margin where it is low.
 bool begin_panel(const Theme& theme, const char* name, const Area& area, bool scrolls = false);
+/// Whether an area is so low that its margin is 10 logical pixels wide.
+bool has_small_margin(const Theme& theme, const Area& area);
 /// What is left of a panel, scrolled for itself. Like begin_area, to be ended by ImGui::EndChild.
 bool begin_list(const char* name);
 void section(const Theme& theme, const char* title);
@@ -208,8 +217,9 @@ void tip_beside_row(const Theme& theme, const char* text);
 void number_row(const Theme& theme, const char* label, const std::string& value, Colour colour);
 /// A click goes to `source`, the step that produced the number. `exact`: with all digits, for the tooltip and a right click, which copies it.
 void number_row(App& app, const char* label, const std::string& value, Colour colour, std::optional<std::size_t> source, const std::string& exact = {});
-/// With blanks behind it, so that numbers that end in one column have their points in one column; small ones with fewer digits.
-std::string at_the_point(double value);
+/// Numbers of one section, small ones with fewer digits: with blanks behind them, so that those that end in one column have their points in one column.
+/// What has no point, or an exponent, ends without.
+std::vector<std::string> at_one_point(const std::vector<double>& values);
 /// Numbers as they are shown, with all digits as `exact`.
 void number_row(App& app, const char* label, double value, Colour colour, std::optional<std::size_t> source = {});
 void number_row(App& app, const char* label, const AnyVector& value, Colour colour, std::optional<std::size_t> source = {}, int digits = 4);
@@ -241,6 +251,8 @@ std::string parting_text(const Session& session);
 std::string ending_text(const Session& session);
 /// Whether two runs come to the same, within 1e-9.
 bool answers_agree(const Result& a, const Result& b);
+/// The signed distance is at most as much, by EPA's first face, where that says more than the events so far.
+std::optional<double> bound_by_first_face(Session& session);
 /// "Step 14 of 22 · EPA iteration 1"
 std::string place_text(Session& session);
 /// Of ASCII letters: for comparisons in either case.

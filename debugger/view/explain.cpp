@@ -115,19 +115,29 @@ struct Explain : ExplainMethods {
     switch (e.status) {
       case EpaStatus::converged:
         if (ends_at_an_earlier_face(e))
-          return "Along the normal of " + face + " " + std::to_string(e.face) + ", which was asked along before, " + difference() + " reaches no farther than the polytope's nearest " + face + " is now: the bounds have met, and that" + with_the_radii(e) +
+          return "Along the normal of " + (frame.faces.contains(e.face) ? face + " " + std::to_string(e.face) + ", which was asked along before, " : former_face(e.face) + ", ") + difference() + " reaches no farther than the polytope's nearest " + face + " is now: the bounds have met, and that" + with_the_radii(e) +
                  " is the depth. Moving body " + b() + " by " + short_number(e.depth) + " along " + short_vector(e.normal) + " just separates the bodies.";
         return "No vertex lies beyond the chosen " + face + ": it is part of the boundary of " + difference() + ", and its distance" + with_the_radii(e) + " is the depth. Moving body " + b() + " by " + short_number(e.depth) + " along " +
                short_vector(e.normal) + " just separates the bodies.";
       case EpaStatus::flat:
         if (rounded()) return "The difference of the cores has no " + measure() + ", and the origin lies in it: the depth, " + short_number(e.depth) + ", is that of the radii alone. The normal is across the flat difference.";
         return difference() + " has no " + measure() + " here: the " + bodies() + " touch without depth. The normal is across the flat difference.";
-      case EpaStatus::separated: return "A support plane has the origin on its far side: the bodies are apart after all, by less than GJK could tell.";
+      case EpaStatus::separated:
+        if (frame.lower_bound.value_or(0) <= 0) return "A support plane has the origin on its far side: the bodies seem to be apart after all, but by less than rounding can tell.";
+        return "A support plane has the origin on its far side: the bodies are apart after all, by less than GJK could tell.";
       case EpaStatus::stalled: return "No " + face + " can be added in this precision. The last good " + face + " is the answer, and the bounds say how exact it is.";
       case EpaStatus::iteration_limit: return "The limit is reached before the bounds met, as on round shapes with many directions equally good. The bounds say how much is known." + std::string(sat_follows() ? " How ellipsoids bend may tell more." : "");
       case EpaStatus::aborted: return "The solver ended without an answer.";
     }
     return {};
+  }
+
+  /// One that has been removed since it was chosen.
+  std::string former_face(int face) const {
+    std::string text = "a" + std::string(facet() == "face" ? " " : "n ") + facet() + " that was there before (" + facet() + " " + std::to_string(face);
+    for (std::size_t i = frame.step; i-- > 0;)
+      if (const auto* chosen = std::get_if<recorded::FaceChosen>(&recording.events[i]); chosen && chosen->face == face) return text + ", chosen at step " + std::to_string(i) + ")";
+    return text + ")";
   }
 
   /// Several ways out are as short, and the first one met is the answer.
@@ -258,7 +268,8 @@ struct Explain : ExplainMethods {
   Explanation operator()(const recorded::GjkEnded& e) const {
     if (foreign(recording) && e.status != GjkStatus::aborted)
       return {"The solver ends", std::string("It takes the bodies to be ") + (e.status == GjkStatus::enclosed || e.status == GjkStatus::touching || e.status == GjkStatus::within_radius ? "overlapping." : "apart.")};
-    return {"GJK ends: " + in_words(word_of(e.status)), sentence(e)};
+    const bool open = e.status == GjkStatus::touching && frame.step + 1 < recording.events.size();  // until the next steps tell
+    return {"GJK ends: " + (open ? "touching or overlapping" : in_words(word_of(e.status))), sentence(e)};
   }
 
   Explanation operator()(const recorded::PolytopeSeeded& e) const {

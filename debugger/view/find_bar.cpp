@@ -1,4 +1,5 @@
-// The bar in which a step is looked for: what is typed is found at once, and all keys work again when it has been entered.
+// The bar in which a step is looked for: what is typed is found at once. When it has been entered the arrows and the like are the steps' again, while letters
+// go on with the text until something else is clicked on.
 #include <imgui_internal.h>
 
 #include <algorithm>
@@ -10,7 +11,8 @@
 namespace gjkdbg {
 
 void App::open_find_bar() {
-  find_.open = find_.wants_focus = true;
+  find_.open = find_.wants_focus = find_.in_hand = true;
+  find_.to_its_end = false;
   show_lab = false;  // it is steps that are found
   forget_found();
 }
@@ -54,7 +56,31 @@ void App::find_keys() {
   if (next) find_next(shift_held());
 }
 
+/// Letters that come before the field has the keys again, each a shortcut otherwise. A blank plays.
+bool App::find_takes_letters() {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (!find_.open || !find_.in_hand || show_lab || io.KeyCtrl) return false;
+  std::string typed;
+  for (const ImWchar c : io.InputQueueCharacters)
+    if (c > ' ' && c < 127) typed += static_cast<char>(c);
+  if (typed.empty()) return false;
+  std::string text = find_.text + typed;
+  text.resize(std::min(text.size(), sizeof find_.text - 1));
+  text.copy(find_.text, text.size()), find_.text[text.size()] = 0;
+  ImGui::GetIO().InputQueueCharacters.resize(0);
+  find_.wants_focus = find_.to_its_end = true;
+  find_while_typing();
+  return true;
+}
+
 namespace {
+
+/// Behind what is there, which is not selected: it stays when typing goes on. `data.UserData`: whether that is still to be done.
+int cursor_to_its_end(ImGuiInputTextCallbackData* data) {
+  if (!std::exchange(*static_cast<bool*>(data->UserData), false)) return 0;
+  data->CursorPos = data->SelectionStart = data->SelectionEnd = data->BufTextLen;
+  return 0;
+}
 
 /// Closes what it stands in.
 bool small_cross(const Theme& theme) {
@@ -97,7 +123,9 @@ void App::find_bar() {
   const char* hint = first_that_fits({"Find a step: a part of its row or sentence, or upper_bound < 1e-3", "A part of a row or sentence, or upper_bound < 1e-3", "Find: text, or upper_bound < 1e-3", "Find a step"}, field - pad);
   ImGui::SetNextItemWidth(field);
   const std::string typed = find_.text;
-  const bool entered = ImGui::InputTextWithHint("##find", hint, find_.text, sizeof find_.text, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  const bool entered = ImGui::InputTextWithHint("##find", hint, find_.text, sizeof find_.text, ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll | ImGuiInputTextFlags_CallbackAlways, cursor_to_its_end, &find_.to_its_end);
+  if (ImGui::IsItemActive()) find_.in_hand = true;
+  else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && !ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows)) find_.in_hand = false;
   const bool left = ImGui::IsItemDeactivated() && key_pressed(Key::escape);
   if (left) typed.copy(find_.text, sizeof find_.text - 1), find_.text[typed.size()] = 0;  // Escape takes back what is typed; F3 goes on with it
   else if (ImGui::IsItemEdited()) find_while_typing();

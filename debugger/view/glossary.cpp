@@ -44,6 +44,7 @@ constexpr GlossaryEntry row_meanings[] = {
     {"witness a", "The point of A nearest to B; of an overlap, the one deepest inside B."},
     {"witness b", "The point of B nearest to A; of an overlap, the one deepest inside A."},
     {"support calls", "How often the bodies were asked for the point that lies farthest along a direction."},
+    {"in these steps", "What has been done up to this step. Of all supports of a motion some are no steps: those that make sure when the bodies touch, that look ahead along a normal, or measure where a ray has ended."},
     {"apart until", "Until this time they are surely apart."},
     {"touching at", "At this time they surely touch, within the tolerance."},
     {"w = a - b", "A point of A \xE2\x88\x92 B."},

@@ -62,9 +62,24 @@ void feed_key(Key key, bool down) {
 void map_keys() {
 #if IMGUI_VERSION_NUM < 18700
   ImGuiIO& io = ImGui::GetIO();
-  const std::pair<int, int> pairs[] = {{ImGuiKey_Tab, 258}, {ImGuiKey_LeftArrow, 263}, {ImGuiKey_RightArrow, 262}, {ImGuiKey_Home, 268}, {ImGuiKey_End, 269},
+  const std::pair<int, int> pairs[] = {{ImGuiKey_Tab, 258}, {ImGuiKey_LeftArrow, 263}, {ImGuiKey_RightArrow, 262}, {ImGuiKey_UpArrow, 265}, {ImGuiKey_DownArrow, 264}, {ImGuiKey_Home, 268}, {ImGuiKey_End, 269},
                                        {ImGuiKey_Backspace, 259}, {ImGuiKey_Enter, 257}, {ImGuiKey_Escape, 256}, {ImGuiKey_Space, 32}};
   for (const auto& [key, code] : pairs) io.KeyMap[key] = code;
+#endif
+}
+
+void choose_by_keys(bool on) {
+  ImGuiContext& context = *ImGui::GetCurrentContext();
+  int& flags = context.IO.ConfigFlags;
+  if (on == ((flags & ImGuiConfigFlags_NavEnableKeyboard) != 0)) return;
+  flags ^= ImGuiConfigFlags_NavEnableKeyboard;
+  if (!on) context.NavDisableHighlight = true;  // no frame stays round the list's field
+}
+
+void choose_now() {
+#if IMGUI_VERSION_NUM < 18700
+  ImGuiContext& context = *ImGui::GetCurrentContext();
+  if (!context.NavDisableHighlight) context.NavActivateId = context.NavActivateDownId = context.NavActivatePressedId = context.NavId;  // later versions do so themselves
 #endif
 }
 

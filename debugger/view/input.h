@@ -26,6 +26,9 @@ bool control_held();
 /// For tests and pictures, where no window feeds the keys: presses and lets go. Call `map_keys` once per context where no GLFW does.
 void feed_key(Key key, bool down);
 void map_keys();
+/// Whether the arrows go through the list that is open, and Return takes what they are on: ImGui's own navigation, which nothing else here uses.
+void choose_by_keys(bool on);
+void choose_now();
 /// A comma that is typed into a field for a number is its point: ImGui would drop it, and "3,5" would be 35. The one after every such field, the other between
 /// ImGui::NewFrame and the first.
 void takes_a_number();

@@ -39,22 +39,18 @@ void App::control_keys(bool shift) {
   }
 }
 
-namespace {
-
-/// To choose from; not a dialog, nor what the rail of a narrow window has opened.
 bool list_is_open() {
   const auto& open = ImGui::GetCurrentContext()->OpenPopupStack;
   return !open.empty() && open.back().Window && std::string_view(open.back().Window->Name).starts_with("##Combo");
 }
 
-}  // namespace
-
 void App::keys() {
   const ImGuiIO& io = ImGui::GetIO();
   // WantTextInput still holds in the frame after a text field went away with its dialog: keys typed meanwhile are no text.
   if ((io.WantTextInput && ImGui::IsAnyItemActive()) || !session.is_open()) return;
-  if (list_is_open()) {
-    if (key_pressed(Key::escape)) ImGui::ClosePopupToLevel(ImGui::GetCurrentContext()->OpenPopupStack.Size - 1, true);
+  if (list_open_ || list_is_open()) {  // one that ImGui has closed just now, by Escape, has had that key
+    if (list_is_open() && key_pressed(Key::escape)) ImGui::ClosePopupToLevel(ImGui::GetCurrentContext()->OpenPopupStack.Size - 1, true);
+    if (list_is_open() && key_pressed(Key::enter)) choose_now();
     return;
   }
   const bool popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
@@ -63,6 +59,7 @@ void App::keys() {
     find_.open = false;
     return;
   }
+  if (find_takes_letters()) return;
   if (!show_lab) find_keys(), step_keys(shift_held(), control_held());
   if (control_held()) return control_keys(shift_held());
   if (key_pressed(Key::x)) show_lab = !show_lab, session.playing = false;

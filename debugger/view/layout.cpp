@@ -19,7 +19,7 @@ void App::panels(const Area& window) {
   const float height = window.height - top - 2 * gap;
   if (show_lab) {
     lab_panel(*this, {gap, top + gap, window.width - 2 * gap, height});
-    banner({gap, top + gap, window.width - 2 * gap, theme.px(40)});
+    banner({gap, top + gap, window.width - 2 * gap, height - gap});
     return;
   }
   if (lecture) {
@@ -29,7 +29,7 @@ void App::panels(const Area& window) {
     view_panels(*this, views_, true);
     theme.marks = 1;
     lecture_panel({gap, top + gap + height - bottom, window.width - 2 * gap, bottom});
-    banner({gap, top + gap, window.width - 2 * gap, theme.px(40)});
+    banner({views_.x, views_.y, views_.width, views_.height - gap});
     return;
   }
   if (window.width < theme.px(600)) return small_panels(window, top);
@@ -51,7 +51,7 @@ void App::panels(const Area& window) {
   if (!narrow) splitter("##left", {left + gap, top + gap, gap, height}, true, p.left, 200, 460, 1);
   splitter("##right", {window.width - right - 2 * gap, top + gap, gap, height}, true, p.right, 240, 560, -1);
   if (!low) splitter("##bottom", {middle.x, middle.y + middle.height, middle.width, gap}, false, p.bottom, 130, 520, -1 / tall);
-  banner({middle.x + gap, middle.y + gap, middle.width - 2 * gap, theme.px(40)});
+  banner({middle.x + gap, middle.y, middle.width - 2 * gap, middle.height - gap});
 }
 
 /// One below the other: side by side neither the views nor the step's words have room.
@@ -68,7 +68,7 @@ void App::small_panels(const Area& window, float top) {
   view_panels(*this, views_, true);
   timeline_panel(*this, {middle.x, middle.y + above + gap, middle.width, strip});
   step_panel(*this, {middle.x, middle.y + above + strip + 2 * gap, middle.width, step});
-  banner({middle.x + gap, middle.y + gap, middle.width - 2 * gap, theme.px(40)});
+  banner({views_.x + gap, views_.y, views_.width - 2 * gap, views_.height - gap});
 }
 
 /// The gap between two panels: dragging it moves the border, a double click puts it back.

@@ -7,7 +7,8 @@ namespace {
 
 const std::string minus = "\xE2\x88\x92";
 
-std::string in_difference(const std::string& name, const Frame& frame) {
+/// `cores`: what is drawn is the difference of those.
+std::string in_difference(const std::string& name, const Frame& frame, bool cores) {
   const std::string a = body_letter(frame.pair[0]), b = body_letter(frame.pair[1]), difference = a + " " + minus + " " + b;
   if (name == "O") return "O, the origin. The bodies overlap exactly if it lies in " + difference + ": a point of " + a + " less one of " + b + " is zero where the two are the same point.";
   if (name == "v") {
@@ -21,9 +22,11 @@ std::string in_difference(const std::string& name, const Frame& frame) {
   if (name.starts_with("nearest: ")) return "The one nearest to O, which should have been chosen: the distance of another is no lower bound of the depth.";
   if (name.starts_with("region ")) return "Whatever lies here has its nearest point of the simplex on the vertices named. O lies here, so the others are not needed.";
   if (name.ends_with("dropped")) return "A vertex that is dropped: the point nearest to O does without it.";
-  const std::string near = "the border of " + difference + " comes at least this near.", far = "nothing of the border is nearer.";
-  if (name == "at most") return frame.upper_bound.value_or(0) < 0 ? "As far from O as the depth is at least: " + far : "As far from O as the signed distance is at most: " + near;
-  if (name == "at least") return frame.lower_bound.value_or(0) < 0 ? "As far from O as the depth is at most: " + near : "As far from O as the signed distance is at least: " + far;
+  const std::string near = "the border of " + difference + " comes at least this near.", far = "nothing of the border is nearer.", of = cores ? " of the cores" : "";
+  if (name == "depth at least") return "As far from O as the depth" + of + " is at least: " + far;
+  if (name == "depth at most") return "As far from O as the depth" + of + " is at most: " + near;
+  if (name == "at most") return "As far from O as the distance" + of + " is at most: " + near;
+  if (name == "at least") return "As far from O as the distance" + of + " is at least: " + far;
   if (name == "inside") return "A point inside " + difference + ". MPR looks where the ray from here through O leaves.";
   if (name == "x") return "x, how far along r the origin surely gets before it meets " + difference + ".";
   if (name == "r") return "r, the motion of " + b + " less that of " + a + ": O moves along it while " + difference + " stands still.";
@@ -62,7 +65,7 @@ std::string meaning_of(const std::string& label, bool world, const Frame& frame,
   std::string name = label;
   if (name.starts_with("w #")) name = "w";
   if (name != "s = 1" && name != "t = 1") name = name.substr(0, name.find(" = "));  // "v = A": one dot with two names
-  return world ? in_world(name, frame, recording) : in_difference(name, frame);
+  return world ? in_world(name, frame, recording) : in_difference(name, frame, rounded(recording.scene.scene) && recording.settings.name != MethodName::gjk_boolean);
 }
 
 }  // namespace gjkdbg

@@ -32,17 +32,39 @@ const char* format_that_fits(const double* values, int count, float room) {
   return "%.1g";
 }
 
-/// Of numbers that stand below one another, for each has more digits than fit beside others; true when edited.
-bool numbers_in_rows(const Theme& theme, double* values, int count, float speed, const char* format) {
+/// Whether a format leaves the numbers what they are, but for half a hundredth.
+bool tells(const char* format, const double* values, int count) {
+  return std::all_of(values, values + count, [&](double x) { return std::abs(std::strtod(formatted(x, format).c_str(), nullptr) - x) <= 0.005 * std::abs(x); });
+}
+
+/// While one of the row's numbers is held the row keeps its form, or what is below it would jump.
+bool keeps_its_form() { return ImGui::GetStateStorage()->GetBool(ImGui::GetID("held")); }
+void note_held() { ImGui::GetStateStorage()->SetBool(ImGui::GetID("held"), ImGui::IsItemActive()); }
+
+void tell_digits(const double* values, int count, const char* format) {
+  const bool short_of = std::any_of(values, values + count, [&](double x) { return std::strtod(formatted(x, format).c_str(), nullptr) != x; });
+  if (!short_of || !ImGui::IsItemHovered() || ImGui::IsItemActive()) return;
+  std::string all;
+  for (int i = 0; i < count; ++i) all += (i == 0 ? "" : ", ") + all_digits(values[i]);
+  ImGui::SetTooltip("%s", all.c_str());
+}
+
+/// Of numbers that stand below one another, for each has more digits than fit beside others; true when edited. Each has the name it has in one row, so
+/// that what is held stays held.
+bool numbers_in_rows(double* values, int count, float speed, const double* low, const double* high, const char* format) {
   bool edited = false;
+  ImGui::BeginGroup();
+  ImGui::PushID("##values");
   for (int i = 0; i < count; ++i) {
-    if (i > 0) ImGui::Dummy({0, theme.text->FontSize + 2 * ImGui::GetStyle().FramePadding.y}), ImGui::SameLine(theme.px(label_width));
     ImGui::PushID(i);
     ImGui::SetNextItemWidth(-1);
-    edited |= ImGui::DragScalar("##value", ImGuiDataType_Double, &values[i], speed, nullptr, nullptr, format, ImGuiSliderFlags_NoRoundToFormat);
+    edited |= ImGui::DragScalar("", ImGuiDataType_Double, &values[i], speed, low, high, format, ImGuiSliderFlags_NoRoundToFormat);
     takes_a_number();
+    tell_digits(&values[i], 1, format);
     ImGui::PopID();
   }
+  ImGui::PopID();
+  ImGui::EndGroup();
   return edited;
 }
 
@@ -56,25 +78,25 @@ bool numbers(const Theme& theme, const char* label, double* values, int count, f
   ImGui::PushFont(theme.mono);
   ImGui::PushID(label);
   for (int i = 0; i < count; ++i) values[i] += 0.0;  // no "-0"
-  const double high = 1e12;
-  const std::string wanted = "%." + std::to_string(digits) + "g";
-  if (digits > 4 && !fit(wanted.c_str(), values, count, ImGui::GetContentRegionAvail().x)) {
-    const bool edited = numbers_in_rows(theme, values, count, speed, wanted.c_str());
-    ImGui::PopID();
-    ImGui::PopFont();
-    return edited;
+  const double highest = 1e12;
+  const double* high = low ? &highest : nullptr;
+  const float room = ImGui::GetContentRegionAvail().x;
+  const std::string wanted = "%." + std::to_string(digits > 4 ? digits : 6) + "g";
+  const char* format = digits > 4 ? wanted.c_str() : format_that_fits(values, count, room);
+  bool* kept = ImGui::GetStateStorage()->GetBoolRef(ImGui::GetID("rows"));
+  if (!keeps_its_form()) *kept = digits > 4 ? !fit(format, values, count, room) : !tells(format, values, count);
+  const bool rows = *kept;
+  bool edited = false;
+  if (rows) {
+    edited = numbers_in_rows(values, count, speed, low, high, wanted.c_str());
+  } else {
+    edited = ImGui::DragScalarN("##values", ImGuiDataType_Double, values, count, speed, low, high, format, std::strcmp(format, "%.4g") == 0 ? 0 : ImGuiSliderFlags_NoRoundToFormat);
+    takes_a_number();
   }
-  const char* format = digits > 4 ? wanted.c_str() : format_that_fits(values, count, ImGui::GetContentRegionAvail().x);
-  const bool short_of = std::any_of(values, values + count, [&](double x) { return std::strtod(formatted(x, format).c_str(), nullptr) != x; });
-  const bool edited = ImGui::DragScalarN("##values", ImGuiDataType_Double, values, count, speed, low, low ? &high : nullptr, format, std::strcmp(format, "%.4g") == 0 ? 0 : ImGuiSliderFlags_NoRoundToFormat);
-  takes_a_number();
+  note_held();
   ImGui::PopID();
   ImGui::PopFont();
-  if (short_of && ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
-    std::string all;
-    for (int i = 0; i < count; ++i) all += (i == 0 ? "" : ", ") + all_digits(values[i]);
-    ImGui::SetTooltip("%s", all.c_str());
-  }
+  if (!rows) tell_digits(values, count, format);
   return edited;
 }
 
@@ -171,8 +193,10 @@ bool choose_type(Shape& shape, int dimension, double size, float room) {
   bool edited = false;
   ImGui::SetNextItemWidth(room);
   if (!ImGui::BeginCombo("##type", now.c_str(), ImGuiComboFlags_HeightLarge)) return false;
-  for (const std::string& type : types[dimension - 1])
+  for (const std::string& type : types[dimension - 1]) {
     if (ImGui::Selectable(type.c_str(), type == now) && type != now) shape = shape_of_type(type, dimension, size), edited = true;
+    if (type == now) ImGui::SetItemDefaultFocus();
+  }
   ImGui::EndCombo();
   return edited;
 }

@@ -27,6 +27,7 @@ void compare_section(App& app) {
   ImGui::SetNextItemWidth(-1);
   if (ImGui::BeginCombo("##compare", s.comparing() ? s.other_title().c_str() : "nothing")) {
     if (ImGui::Selectable("nothing", !s.comparing())) s.stop_comparing();
+    ImGui::SetItemDefaultFocus();
     const Settings& now = s.recording().settings;
     const std::vector<int> possible = possible_methods(s.scene());
     const auto offer = [&](const char* title, auto change) {

@@ -32,7 +32,9 @@ bool choice(const Theme& theme, const char* label, int& value, const Names& name
   if (open) {
     for (const int i : offered) {
       const std::string name(names[static_cast<std::size_t>(i)]);
-      if (ImGui::Selectable(name.c_str(), i == value)) value = i, edited = true;
+      const bool current = i == value;
+      if (ImGui::Selectable(name.c_str(), current)) value = i, edited = true;
+      if (current) ImGui::SetItemDefaultFocus();
       if (ImGui::IsItemHovered()) tooltip(theme, meaning_of_choice(name));
     }
     ImGui::EndCombo();

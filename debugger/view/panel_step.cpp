@@ -3,9 +3,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <limits>
+#include <numeric>
 
 #include "debugger/view/app.h"
 #include "debugger/view/explain.h"
+#include "debugger/view/plot.h"
 #include "debugger/view/step_notes.h"
 #include "recordings/mesh_parts.h"
 #include "recordings/region_tests.h"
@@ -59,6 +62,7 @@ void heading(App& app) {
   ImGui::PushFont(theme.title);
   ImGui::TextWrapped("%s", e.title.c_str());
   ImGui::PopFont();
+  finding_first(app);
   wrapped(e.text, theme.palette.text_soft);
 }
 
@@ -70,6 +74,7 @@ void weights(App& app) {
   section(theme, frame.barycentric.empty() ? "SIMPLEX" : "SIMPLEX, BARYCENTRIC WEIGHTS");
   const float left = ImGui::GetCursorScreenPos().x, width = ImGui::GetContentRegionAvail().x, row = ImGui::GetTextLineHeight() + theme.px(4);
   ImDrawList* draw = ImGui::GetWindowDrawList();
+  const std::vector<std::string> values = at_one_point(frame.barycentric);
   for (std::size_t i = 0; i < frame.simplex.size(); ++i) {
     const float y = ImGui::GetCursorScreenPos().y;
     const bool newest = frame.newest == frame.simplex[i];
@@ -78,7 +83,7 @@ void weights(App& app) {
     ImGui::PushFont(theme.mono);
     ImGui::TextColored(vec(theme.palette.text_faint), "#%d", frame.simplex[i]);
     if (i < frame.barycentric.size()) {
-      const std::string value = at_the_point(frame.barycentric[i]);
+      const std::string& value = values[i];
       const float from = left + theme.px(64), to = left + width - theme.px(78);
       draw->AddRectFilled({from, y + theme.px(5)}, {to, y + theme.px(13)}, packed(theme.palette.field), theme.px(3));
       const auto share = static_cast<float>(std::clamp(frame.barycentric[i], 0.0, 1.0));
@@ -90,6 +95,25 @@ void weights(App& app) {
     ImGui::SetCursorScreenPos({left, y + row});
   }
   for (const int v : frame.dropped) ImGui::TextColored(vec(theme.palette.dropped), "%s  #%d dropped", simplex_letter(frame, v, app.settings.newest_first).c_str(), v);
+}
+
+std::string three_digits(double x) { return formatted(x == 0 ? 0 : x, "%.3g"); }
+
+/// Where O's foot on a part lies. `letters`: of its vertices; `least`: the one with the smallest weight.
+std::string projection_text(const RegionTest& test, const std::string& letters, std::size_t least) {
+  if (test.weights.size() == 1) return letters + " is " + three_digits(test.distance) + " from O";
+  std::vector<std::size_t> order(letters.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return letters[i] < letters[j]; });
+  std::string name, sum;
+  for (const std::size_t i : order) {
+    const double w = test.weights[i];
+    name += letters[i];
+    sum += (sum.empty() ? w < 0 ? "-" : "" : w < 0 ? " - " : " + ") + three_digits(std::abs(w)) + " " + letters[i];
+  }
+  const std::string smallest = three_digits(test.weights[least]);
+  return "O's foot on " + name + ": " + sum + ", " + three_digits(test.distance) + " from O\n" +
+         (test.holds_projection ? "its smallest weight is " + smallest + ": that far from the other answer, outside" : "the weight of " + std::string(1, letters[least]) + " is " + smallest + ": below 0, so it lies outside of " + name);
 }
 
 /// Every part of the simplex as it was before the cut: its weights, whether it holds its projection, how close that was.
@@ -107,12 +131,17 @@ void regions(App& app) {
   section(theme, "EVERY PART: |v|, OR A WEIGHT < 0");
   ImGui::PushFont(theme.mono);
   const float right = ImGui::GetWindowContentRegionMax().x;
-  for (const RegionTest& test : region_tests(points)) {
-    std::string part, why;
+  const std::vector<RegionTest> tests = region_tests(points);
+  std::vector<double> numbers;
+  for (const RegionTest& test : tests) numbers.push_back(test.holds_projection ? test.distance : *std::min_element(test.weights.begin(), test.weights.end()));
+  const std::vector<std::string> texts = at_one_point(numbers);
+  for (std::size_t k = 0; k < tests.size(); ++k) {
+    const RegionTest& test = tests[k];
+    std::string part, why = texts[k];
     for (const int i : test.part) part += vertex_letter(app.settings.newest_first ? i : static_cast<int>(points.size()) - 1 - i);
     const std::size_t least = static_cast<std::size_t>(std::min_element(test.weights.begin(), test.weights.end()) - test.weights.begin());
-    if (!test.holds_projection) why = std::string("\xCE\xBB") + part[least] + " " + at_the_point(test.weights[least]);
-    else why = at_the_point(test.distance);
+    const std::string tip = projection_text(test, part, least);
+    if (!test.holds_projection) why = std::string("\xCE\xBB") + part[least] + " " + why;
     std::sort(part.begin(), part.end());
     const Colour colour = test.nearest ? theme.palette.simplex : test.holds_projection ? theme.palette.text_soft : theme.palette.dropped;
     ImGui::TextColored(vec(colour), "%s %s", test.nearest ? ">" : " ", part.c_str());
@@ -120,10 +149,7 @@ void regions(App& app) {
     ImGui::TextColored(vec(colour), "%s", test.nearest ? "nearest" : test.holds_projection ? "farther" : "outside");
     ImGui::SameLine(right - ImGui::CalcTextSize(why.c_str()).x);
     ImGui::TextColored(vec(colour), "%s", why.c_str());
-    if (!ImGui::IsItemHovered()) continue;
-    std::string tip = "weights of the origin's projection:";
-    for (const double w : test.weights) tip += " " + short_number(w);
-    ImGui::SetTooltip("%s\nat %s; the test is %s from the other answer", tip.c_str(), short_number(test.distance).c_str(), short_number(std::abs(test.margin)).c_str());
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", tip.c_str());
   }
   ImGui::PopFont();
 }
@@ -139,7 +165,9 @@ void counters(App& app) {
     grown += std::holds_alternative<recorded::PolytopeGrown>(s.recording().events[i]);
   }
   section(theme, "SO FAR");
-  std::string text = std::to_string(supports) + (supports == 1 ? " support" : " supports");
+  const int all = s.recording().result.support_calls;
+  const std::string of_all = s.step() + 1 == s.count() && all > supports ? " of all " + std::to_string(all) : "";
+  std::string text = std::to_string(supports) + of_all + (supports == 1 && of_all.empty() ? " support" : " supports");
   if (dropped > 0) text += ", " + std::to_string(dropped) + " dropped";
   if (grown > 0) text += ", " + std::to_string(grown) + " grown";
   number_row(theme, "in these steps", text, theme.palette.text_soft);
@@ -156,7 +184,7 @@ void faces(App& app) {
   if (frame.chosen && frame.faces.contains(*frame.chosen)) {
     const FrameFace& f = frame.faces.at(*frame.chosen);
     number_row(app, (foreign(app.session.recording()) ? facet + " chosen" : "nearest " + facet).c_str(), std::to_string(f.face), theme.palette.chosen, f.event);
-    number_row(app, "its distance", at_the_point(f.distance), theme.palette.chosen, f.event, all_digits(f.distance));
+    number_row(app, "its distance", short_number(f.distance), theme.palette.chosen, f.event, all_digits(f.distance));
     number_row(app, "its normal", f.normal, theme.palette.chosen, f.event);
   }
 }
@@ -168,25 +196,33 @@ void bounds(App& app) {
   const Event& event = app.session.recording().events[app.session.step()];
   const bool before = std::holds_alternative<recorded::SupportQueried>(event) || std::holds_alternative<recorded::PolytopeSeeded>(event);
   section(theme, (std::string(mesh_parts(app.session.recording(), app.session.frame()) ? "DISTANCE TO THE TRIANGLE" : "SIGNED DISTANCE") + (before ? ", BEFORE THIS STEP" : "")).c_str());
-  const auto row = [&](const char* label, const std::optional<double>& x, std::optional<std::size_t> source) {
-    if (x) number_row(app, label, at_the_point(*x), theme.palette.text, source, all_digits(*x));
+  const std::optional<double> nearer = bound_by_first_face(app.session), upper = nearer ? nearer : frame.upper_bound;
+  const double gap = upper && frame.lower_bound ? *upper - *frame.lower_bound : 0;
+  const std::vector<std::string> texts = at_one_point({upper.value_or(0), frame.lower_bound.value_or(0), gap});
+  const auto row = [&](const char* label, const std::optional<double>& x, const std::string& text, std::optional<std::size_t> source) {
+    if (x) number_row(app, label, text, theme.palette.text, source, all_digits(*x));
     else number_row(app, label, "unknown", theme.palette.text, source);
   };
   const auto from = last_of<recorded::SimplexReduced, recorded::GjkEnded, recorded::PolytopeGrown, recorded::PortalFound, recorded::AxisTested, recorded::PointsProjected, recorded::ProjectionsEnded, recorded::ClosedFormEnded>(app.session);
-  // Of the polytope, which lies inside and holds the origin, the face chosen is the nearest: the depth is no less.
-  std::optional<double> upper = frame.upper_bound;
-  const auto chosen = frame.chosen ? frame.faces.find(*frame.chosen) : frame.faces.end();
-  const bool proven = !frame.epa_status && chosen != frame.faces.end() && !foreign(app.session.recording()) && !app.session.scene().scene.motion;
-  if (proven && upper) upper = std::min(*upper, -chosen->second.distance - app.session.meshes().radius);
-  row("at most", upper, proven ? last_of<recorded::FaceChosen>(app.session) : from);
-  row("at least", frame.lower_bound, from);
+  row("at most", upper, texts[0], nearer ? last_of<recorded::FaceChosen>(app.session) : from);
+  row("at least", frame.lower_bound, texts[1], from);
   if (!frame.lower_bound || !upper) return;
-  const double gap = *upper - *frame.lower_bound;
-  number_row(app, "gap", at_the_point(gap), theme.palette.text_soft, std::nullopt, all_digits(gap));
+  number_row(app, "gap", texts[2], theme.palette.text_soft, std::nullopt, all_digits(gap));
+}
+
+/// Beside the algorithm's line: an arrow where it is the step's, a cross where the step is not what it says.
+void line_mark(const Theme& theme, ImVec2 at, bool wrong, Colour colour) {
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  if (!wrong) return draw->AddTriangleFilled({at.x - theme.px(2), at.y + theme.px(3)}, {at.x - theme.px(2), at.y + theme.px(12)}, {at.x + theme.px(5), at.y + theme.px(7.5f)}, packed(colour));
+  const ImVec2 middle{at.x + theme.px(1.5f), at.y + theme.px(7.5f)};
+  const float arm = theme.px(4);
+  for (const float way : {-1.f, 1.f}) draw->AddLine({middle.x - arm, middle.y - way * arm}, {middle.x + arm, middle.y + way * arm}, packed(colour), theme.px(2));
 }
 
 void algorithm(App& app) {
   const Theme& theme = app.theme;
+  const bool wrong = error_here(app.session) != nullptr;
+  const Colour mark = wrong ? theme.palette.newest : theme.palette.accent;
   const PseudoCode code = pseudo_code(app.session.recording(), app.session.step());
   section(theme, code.title.c_str());
   ImGui::PushFont(theme.mono);
@@ -201,8 +237,8 @@ void algorithm(App& app) {
     const bool current = static_cast<int>(i) == code.current;
     if (current) {
       const float right = at.x + ImGui::GetContentRegionAvail().x;
-      draw->AddRectFilled({at.x - theme.px(6), at.y - theme.px(2)}, {right, at.y + ImGui::GetTextLineHeight() + theme.px(2)}, packed(theme.palette.accent.with_alpha(0.3)), theme.px(4));
-      draw->AddTriangleFilled({at.x - theme.px(2), at.y + theme.px(3)}, {at.x - theme.px(2), at.y + theme.px(12)}, {at.x + theme.px(5), at.y + theme.px(7.5f)}, packed(theme.palette.accent));
+      draw->AddRectFilled({at.x - theme.px(6), at.y - theme.px(2)}, {right, at.y + ImGui::GetTextLineHeight() + theme.px(2)}, packed(mark.with_alpha(0.3)), theme.px(4));
+      line_mark(theme, at, wrong, mark);
     }
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + theme.px(12));
     ImGui::TextColored(vec(current ? theme.palette.text : theme.palette.text_soft), "%s", code.lines[i].c_str());
@@ -268,7 +304,7 @@ void answer(App& app) {
   }
   number_row(theme, "intersecting", r.intersecting ? "yes" : "no", foreign(app.session.recording()) ? theme.palette.text : r.intersecting ? theme.palette.chosen : theme.palette.support);
   const char* label = unproven(r) ? "signed distance, about" : "signed distance";
-  if (r.signed_distance) number_row(app, label, at_the_point(*r.signed_distance), theme.palette.text, last_of<recorded::GjkEnded, recorded::EpaEnded, recorded::MprEnded, recorded::SatEnded, recorded::ClosedFormEnded, recorded::ProjectionsEnded>(app.session), all_digits(*r.signed_distance));
+  if (r.signed_distance) number_row(app, label, short_number(*r.signed_distance), theme.palette.text, last_of<recorded::GjkEnded, recorded::EpaEnded, recorded::MprEnded, recorded::SatEnded, recorded::ClosedFormEnded, recorded::ProjectionsEnded>(app.session), all_digits(*r.signed_distance));
   if (r.normal) number_row(app, "normal", *r.normal, theme.palette.text);
   const int digits = r.witness_a && r.witness_b ? digits_that_tell(*r.witness_a, *r.witness_b) : 4;
   if (r.witness_a) number_row(app, "witness a", *r.witness_a, theme.palette.body_a, {}, digits);
@@ -279,6 +315,23 @@ void answer(App& app) {
 
 }  // namespace
 
+/// Of the polytope, which lies inside and holds the origin, the face chosen is the nearest: the depth is no less. Once it has grown the events say so.
+/// They allow for rounding, which a face's distance does not.
+std::optional<double> bound_by_first_face(Session& s) {
+  const Frame& frame = s.frame();
+  const auto& events = s.recording().events;
+  const auto chosen = frame.chosen ? frame.faces.find(*frame.chosen) : frame.faces.end();
+  if (!frame.upper_bound || frame.epa_status || chosen == frame.faces.end() || foreign(s.recording()) || s.scene().scene.motion) return std::nullopt;
+  for (std::size_t i = s.step() + 1; i-- > 0 && !std::holds_alternative<recorded::PolytopeSeeded>(events[i]);)
+    if (std::holds_alternative<recorded::PolytopeGrown>(events[i])) return std::nullopt;
+  double far = 0;
+  for (const int v : chosen->second.vertices)
+    if (const auto at = frame.vertices.find(v); at != frame.vertices.end()) far = std::max(far, at->second.a.norm() + at->second.b.norm());
+  const double epsilon = s.recording().settings.scalar == Scalar::float_precision ? std::numeric_limits<float>::epsilon() : std::numeric_limits<double>::epsilon();
+  const double bound = -chosen->second.distance - s.meshes().radius + 20 * epsilon * far, better = *frame.upper_bound - bound, gap = *frame.upper_bound - frame.lower_bound.value_or(bound);
+  return better > 1e-9 * gap ? std::optional(bound) : std::nullopt;
+}
+
 std::string place_text(Session& session) {
   const Event& event = session.recording().events[runs_at(session.recording(), session.step())];
   const char* phase = phase_name(event, session.frame());
@@ -288,6 +341,9 @@ std::string place_text(Session& session) {
 }
 
 void step_panel(App& app, const Area& area) {
+  // As if there were a scrollbar, so that the column of numbers stays where it is when there is one.
+  const ImGuiStyle& style = ImGui::GetStyle();
+  ImGui::SetNextWindowContentSize({std::max(1.f, area.width - 2 * (has_small_margin(app.theme, area) ? app.theme.px(10) : style.WindowPadding.x) - style.ScrollbarSize), 0});
   if (!begin_panel(app.theme, "step", area, true)) return ImGui::EndChild();
   way_back(app);
   heading(app);

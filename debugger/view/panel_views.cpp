@@ -59,7 +59,13 @@ struct Held {
   int body = -1;
   bool turning = false;
   AnyVector pivot;  ///< of a turn: the body's middle, in its own frame
+  enum class Now { nothing, pressed, released } now = Now::nothing;  ///< in this frame
+  bool seen_whole[2] = {};  ///< the difference, the world: when it was pressed
 };
+Held& hand() {
+  static Held held;
+  return held;
+}
 
 /// Where the pose's position is the middle, it is that to the last bit: a turn then leaves it as it is.
 AnyVector pivot_of(const DisplayMesh& mesh, const Pose& pose) {
@@ -117,7 +123,7 @@ void body_handle(App& app, int i, const BodyHandle& handle, const Projection& pr
   if (near_disc && held.body < 0) ImGui::SetTooltip("drag: turn %s", letter.c_str());
   if (!(near || near_disc) || !ImGui::IsMouseClicked(ImGuiMouseButton_Left)) return;
   const auto k = static_cast<std::size_t>(i);
-  held = {i, near_disc, pivot_of(app.session.meshes().bodies[k], app.session.scene().scene.bodies[k].pose)};
+  held = {i, near_disc, pivot_of(app.session.meshes().bodies[k], app.session.scene().scene.bodies[k].pose), Held::Now::pressed, {}};
   app.session.begin_edit();
 }
 
@@ -125,7 +131,7 @@ void body_handle(App& app, int i, const BodyHandle& handle, const Projection& pr
 void drag_held(App& app, const Projection& projection, Held& held) {
   const ImVec2 mouse = ImGui::GetIO().MousePos, delta = ImGui::GetIO().MouseDelta;
   if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
-    held = {};
+    held.body = -1, held.now = Held::Now::released;
     app.session.end_edit();
     return;
   }
@@ -164,6 +170,19 @@ void body_letters(App& app, const Projection& projection) {
   }
 }
 
+bool is_seen_whole(const SceneMeshes& meshes, bool world, const Projection& projection) {
+  const auto seen = [&](const DisplayMesh& mesh, const ViewPoint& offset) {
+    return std::all_of(mesh.points.begin(), mesh.points.end(), [&](const ViewPoint& p) {
+      const Projected at = projection(p + offset);
+      return projection.rectangle().contains(at.x, at.y);
+    });
+  };
+  if (!world) return seen(meshes.difference, ViewPoint::Zero());
+  for (std::size_t i = 0; i < meshes.bodies.size(); ++i)
+    if (!seen(meshes.bodies[i], row_offset(static_cast<int>(i), meshes.dimension, projection))) return false;
+  return true;
+}
+
 /// Which run and which of its pictures a view shows.
 struct Shown {
   bool world = true;
@@ -183,19 +202,29 @@ std::string title_of(App& app, const Shown& shown, float room) {
   return shortened(app.theme.text, title, room);
 }
 
-std::string subtitle_of(App& app, const Shown& shown) {
+/// "a, b and c"
+std::string in_a_row(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i) text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " and ") + words[i];
+  return text;
+}
+
+/// `drawn`: what the picture shows of the step.
+std::string subtitle_of(App& app, const Shown& shown, std::vector<std::string> drawn) {
   if (shown.other && app.session.step() != app.session.other_step()) return (app.session.step() > app.session.other_step() ? "has ended at step " : "ends later, at step ") + std::to_string(app.session.other_step());
   if (shown.world && app.session.meshes().bodies.size() < 2) return "a body alone";
-  if (shown.world) return app.session.meshes().bodies.size() > 2 ? "the bodies; in colour the two that are looked at" : "the two bodies and their supports";
-  if (app.session.meshes().radius > 0) return "of the cores; yellow ring: the sum of the radii";
+  if (shown.world && app.session.meshes().bodies.size() > 2) return "the bodies; in colour the two that are looked at" + (drawn.empty() ? "" : "; " + in_a_row(drawn));
+  if (shown.world) return drawn.insert(drawn.begin(), "the two bodies"), in_a_row(drawn);
+  if (app.session.meshes().radius > 0) return "of the cores; yellow ring: the sum of the radii" + (drawn.empty() ? "" : "; " + in_a_row(drawn));
+  if (drawn.empty()) return "the bodies overlap if O lies in it";
   const Frame& frame = app.session.frame();
-  if (!shown.other && (frame.gjk_status || frame.epa_status || frame.stage == Frame::Stage::gjk)) return "simplex, direction, support plane, polytope";  // where another method handed over
+  if (!shown.other && (frame.gjk_status || frame.epa_status || frame.stage == Frame::Stage::gjk)) return in_a_row(drawn);  // where another method handed over
   switch (shown.other ? app.session.other().settings.name : app.session.recording().settings.name) {
     case MethodName::sat: return "every axis that could separate it from O";
     case MethodName::mpr: return "from a point inside, through O, out to the portal";
     case MethodName::closed_form: return "of two segments, a parallelogram";
     case MethodName::projections: return "v, the difference of the two points";
-    default: return "simplex, direction, support plane, polytope";
+    default: return in_a_row(drawn);
   }
 }
 
@@ -209,7 +238,7 @@ void link_cameras(App& app, bool from_world) {
 /// Mouse on a view: handles, orbit, the vertex under the pointer.
 void interact(App& app, const Area& area, const Shown& shown, Camera& camera, const Projection& projection, const std::vector<FlatItem>& items,
               std::optional<int>& pointed) {
-  static Held held;
+  Held& held = hand();
   const Theme& theme = app.theme;
   ImGui::SetCursorScreenPos({area.x, area.y});
   ImGui::InvisibleButton("canvas", {area.width, area.height}, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
@@ -233,6 +262,15 @@ void interact(App& app, const Area& area, const Shown& shown, Camera& camera, co
   if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) app.fit_views();
 }
 
+/// What was seen as a whole before a body was dragged is so when it is let go. Whoever has gone near to look at a part stays there.
+void follow_the_hand(App& app, const Shown& shown, const Projection& projection) {
+  Held& held = hand();
+  if (held.now == Held::Now::nothing) return;
+  const bool whole = is_seen_whole(app.session.meshes(), shown.world, projection);
+  if (held.now == Held::Now::pressed) held.seen_whole[shown.world] = whole;
+  else if (held.seen_whole[shown.world] && !whole) app.fit_views();
+}
+
 /// What a view's title takes of it, in pixels: the lower the view, the less.
 struct TitleSpace {
   bool subtitle;      ///< in a low view the title is alone
@@ -252,7 +290,7 @@ TitleSpace title_space(const Theme& theme, float height, float large) {
 }
 
 /// The title and what fades out below it.
-void draw_title(App& app, const Area& area, const Shown& shown, const TitleSpace& space) {
+void draw_title(App& app, const Area& area, const Shown& shown, const TitleSpace& space, const std::vector<std::string>& drawn) {
   const Theme& theme = app.theme;
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const ImU32 cover = packed(theme.palette.view), clear = packed(theme.palette.view.with_alpha(0));
@@ -262,7 +300,7 @@ void draw_title(App& app, const Area& area, const Shown& shown, const TitleSpace
   const ImVec2 title{area.x + space.corner.x, area.y + space.corner.y};
   const float room = (right - theme.px(8) - title.x) / space.font;
   draw->AddText(theme.text, theme.text->FontSize * space.font, title, packed(shown.other ? theme.palette.text_soft : theme.palette.text), title_of(app, shown, room).c_str());
-  if (space.subtitle) draw->AddText(theme.small, theme.small->FontSize * space.font, {title.x, title.y + theme.px(20) * space.font}, packed(theme.palette.text_faint), shortened(theme.small, subtitle_of(app, shown), room).c_str());
+  if (space.subtitle) draw->AddText(theme.small, theme.small->FontSize * space.font, {title.x, title.y + theme.px(20) * space.font}, packed(theme.palette.text_faint), shortened(theme.small, subtitle_of(app, shown, drawn), room).c_str());
 }
 
 void one_view(App& app, const Area& area, const Shown& shown, bool interactive, std::optional<int>& pointed) {
@@ -282,8 +320,9 @@ void one_view(App& app, const Area& area, const Shown& shown, bool interactive, 
   picture.covered = space.covered;
   const auto items = flatten(picture, projection, theme.px(theme.marks));
   draw_items(ImGui::GetWindowDrawList(), items, theme);
-  draw_title(app, area, shown, space);
+  draw_title(app, area, shown, space, picture.shown);
   if (interactive) interact(app, area, shown, camera, projection, items, pointed);
+  if (interactive && !shown.other) follow_the_hand(app, shown, projection);
   ImGui::EndChild();
   ImGui::PopStyleColor();
 }
@@ -309,6 +348,7 @@ Colour letter_colour(App& app, int body) {
 void view_panels(App& app, const Area& area, bool interactive) {
   const float gap = app.theme.px(6);
   const Layout layout = app.preferences.layout;
+  hand().now = Held::Now::nothing;
   std::optional<int> pointed;
   const bool alone = app.session.meshes().bodies.size() < 2;  // a body that only moves: there is no difference
   const bool worlds = alone || layout == Layout::world, two = app.session.comparing() || (!alone && (layout == Layout::both || layout == Layout::stacked));

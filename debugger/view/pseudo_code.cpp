@@ -121,19 +121,21 @@ struct PseudoCodeOf {
     if (recording.scene.scene.dimension == 1)
       return {"EPA", {"polytope = simplex, completed round O", "repeat", "  e = its endpoint nearest O", "  w = support(normal of e)", "  if w not beyond e: depth = |e|", "  remove e", "  w is an endpoint"}, line};
     if (recording.scene.scene.dimension == 2)
-      return {"EPA", {"polytope = simplex, completed round O", "repeat", "  e = its edge nearest O", "  w = support(normal of e)", rounded(recording.scene.scene) ? "  if w not beyond e: |e| + radii" : "  if w not beyond e: depth = |e|", "  remove the edges w sees", "  join the ends of the gap to w"}, line};
-    return {"EPA", {"polytope = simplex, completed round O", "repeat", "  f = its face nearest O", "  w = support(normal of f)", rounded(recording.scene.scene) ? "  if w not beyond f: |f| + radii" : "  if w not beyond f: depth = |f|", "  remove the faces w sees", "  join the horizon to w"}, line};
+      return {"EPA", {"polytope = simplex, completed round O", "repeat", "  e = its edge nearest O", "  w = support(normal of e)", rounded(recording.scene.scene) ? "  if w not beyond e: depth = |e| + radii" : "  if w not beyond e: depth = |e|", "  remove the edges w sees", "  join the ends of the gap to w"}, line};
+    return {"EPA", {"polytope = simplex, completed round O", "repeat", "  f = its face nearest O", "  w = support(normal of f)", rounded(recording.scene.scene) ? "  if w not beyond f: depth = |f| + radii" : "  if w not beyond f: depth = |f|", "  remove the faces w sees", "  join the horizon to w"}, line};
   }
   bool has_grown() const {
     const auto grown = [](const Event& event) { return std::holds_alternative<recorded::PolytopeGrown>(event); };
     return std::any_of(recording.events.begin(), recording.events.begin() + static_cast<std::ptrdiff_t>(step), grown);
   }
+  /// It ends with the choice of a face that is as far out as a way that is known: nothing is asked along it.
+  bool chosen_last() const { return step > 0 && std::holds_alternative<recorded::FaceChosen>(recording.events[step - 1]); }
   PseudoCode operator()(const recorded::PolytopeSeeded&) const { return epa(0); }
   PseudoCode operator()(const recorded::FaceChosen&) const { return epa(2); }
   PseudoCode operator()(const recorded::PolytopeGrown&) const { return epa(6); }
   PseudoCode operator()(const recorded::EpaEnded& e) const {
     switch (e.status) {
-      case EpaStatus::converged:
+      case EpaStatus::converged: return epa(chosen_last() && !foreign(recording) ? 2 : 4);
       case EpaStatus::stalled: return epa(4);
       case EpaStatus::separated: return epa(has_grown() ? 3 : 0);  // a support plane has O beyond it
       case EpaStatus::flat: return epa(0);  // nothing could be completed
@@ -152,7 +154,7 @@ struct PseudoCodeOf {
     const char* support = settings.name != MethodName::gjk_accelerated ? "  w = support(-v)" : settings.acceleration == Acceleration::newton ? "  w = support(Newton's d or -v)" : settings.acceleration == Acceleration::smoothed ? "  w = support(best plane's d - v, or -v)" : "  w = support(momentum's d or -v)";
     return {foreign(recording) ? "GJK, distance form; yours may differ" : "GJK, distance form",
             {settings.start == Start::previous ? "W = last simplex, or { support(d) }" : "w = support(d);  W = { w }", "repeat", "  v = point of W nearest O", "  W = the part of W that holds v",
-             yes_or_no ? "  if |v| <= radii: overlap" : "  if v = O: overlap", support, yes_or_no ? "  if w short of O: apart" : rounded(recording.scene.scene) ? "  if w no farther along -v: |v| - radii" : "  if w no farther along -v: |v|", "  W = { w } + W"},
+             yes_or_no ? "  if |v| <= radii: overlap" : "  if v = O: overlap", support, yes_or_no ? "  if w short of O: apart" : rounded(recording.scene.scene) ? "  if w no farther along -v: return |v| - radii" : "  if w no farther along -v: return |v|", "  W = { w } + W"},
             line};
   }
   PseudoCode operator()(const recorded::GjkBegan&) const { return gjk(0); }

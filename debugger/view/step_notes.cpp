@@ -51,7 +51,19 @@ std::string what_is_new(const Recording& recording, const Finding& f) {
 
 }  // namespace
 
-/// A click goes to the step; at the step, the whole message of the first, and of the others when pointed at.
+const Finding* error_here(const Session& s) {
+  for (const Finding& f : s.findings())
+    if (f.step == s.step() && f.severity == Finding::Severity::error) return &f;
+  return nullptr;
+}
+
+void finding_first(App& app) {
+  const Finding* f = error_here(app.session);
+  if (!f) return;
+  if (const std::string text = what_is_new(app.session.recording(), *f); !text.empty()) wrapped(text, colour_of(app.theme.palette, *f));
+}
+
+/// A click goes to the step; the whole message when pointed at. At the step that of the first stands here, or where it is an error below the step's title.
 void findings_note(App& app) {
   Session& s = app.session;
   const Theme& theme = app.theme;
@@ -64,11 +76,12 @@ void findings_note(App& app) {
     const bool here = f.step == s.step(), whole = here && first;
     ImGui::PushID(static_cast<int>(i));
     ImGui::PushStyleColor(ImGuiCol_Text, vec(colour_of(theme.palette, f)));
-    const bool clicked = ImGui::Selectable(("step " + std::to_string(f.step) + "  " + f.code).c_str(), here);
+    const std::string name = "step " + std::to_string(f.step) + "  " + f.code, fits = shortened(theme.text, name, ImGui::GetContentRegionAvail().x);
+    const bool clicked = ImGui::Selectable(fits.c_str(), here);
     ImGui::PopStyleColor();
     ImGui::PopID();
-    if (ImGui::IsItemHovered() && !whole) tooltip(theme, f.message);
-    if (const std::string text = whole ? what_is_new(s.recording(), f) : ""; !text.empty()) wrapped(text, theme.palette.text_soft);
+    if (ImGui::IsItemHovered() && (!whole || fits != name)) tooltip(theme, (fits == name ? "" : f.code + "\n") + f.message);
+    if (const std::string text = whole && &f != error_here(s) ? what_is_new(s.recording(), f) : ""; !text.empty()) wrapped(text, theme.palette.text_soft);
     if (here) first = false;
     if (clicked) s.go_to(f.step);
   }

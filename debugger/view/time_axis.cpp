@@ -30,6 +30,7 @@ void time_axis(App& app) {
   const float cell = size.x / static_cast<float>(s.count());
   float free = at.x;
   double last = -1;
+  std::string told;  ///< the time that was written last: what differs from it in digits that are not shown is not written again
   std::size_t since = 0;  ///< the last time that was told
   const double end = s.recording().scene.scene.query == Query::simulate ? s.recording().result.time.value_or(0) : 0;
   for (std::size_t i = 0; i < s.count(); ++i) {
@@ -50,7 +51,11 @@ void time_axis(App& app) {
     const std::string text = "t " + (end > 0 ? time_of_step(*time, end) : short_number(*time));
     const float width = theme.small->CalcTextSizeA(theme.small->FontSize * 0.85f, 1000, 0, text.c_str()).x;
     draw->AddLine({x, at.y + theme.px(2)}, {x, at.y + size.y + theme.px(4)}, packed(theme.palette.accent), 1);
-    if (x + width + theme.px(4) < at.x + size.x) draw->AddText(theme.small, theme.small->FontSize * 0.85f, {x + theme.px(3), at.y + theme.px(1)}, packed(theme.palette.text_faint), text.c_str());
+    if (text == told) {
+      free = x + theme.px(12);
+      continue;
+    }
+    if (x + width + theme.px(4) < at.x + size.x) told = text, draw->AddText(theme.small, theme.small->FontSize * 0.85f, {x + theme.px(3), at.y + theme.px(1)}, packed(theme.palette.text_faint), text.c_str());
     free = x + width + theme.px(12);
   }
 }

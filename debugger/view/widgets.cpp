@@ -7,6 +7,7 @@
 
 #include "debugger/view/app.h"
 #include "debugger/view/explain.h"
+#include "debugger/view/plot.h"
 
 namespace gjkdbg {
 
@@ -16,8 +17,10 @@ bool begin_area(const char* name, const Area& area, bool scrolls) {
                            ImGuiWindowFlags_AlwaysUseWindowPadding | (scrolls ? 0 : ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse));
 }
 
+bool has_small_margin(const Theme& theme, const Area& area) { return area.height < theme.px(100); }
+
 bool begin_panel(const Theme& theme, const char* name, const Area& area, bool scrolls) {
-  const bool low = area.height < theme.px(100);
+  const bool low = has_small_margin(theme, area);
   if (low) ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {theme.px(10), theme.px(7)});
   const bool seen = begin_area(name, area, scrolls);
   if (low) ImGui::PopStyleVar();  // tooltips have theirs
@@ -144,7 +147,7 @@ void tooltip(const Theme& theme, const std::string& text) {
 }
 
 void tip_beside_row(const Theme& theme, const char* text) {
-  if (!ImGui::IsItemHovered()) return;
+  if (*text == 0 || !ImGui::IsItemHovered()) return;
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax(), size = ImGui::CalcTextSize(text), pad = ImGui::GetStyle().WindowPadding, window = ImGui::GetIO().DisplaySize;
   const float height = size.y + 2 * pad.y, gap = theme.px(5), below = high.y + gap;
   ImGui::SetNextWindowPos({std::max(0.f, std::min(low.x, window.x - size.x - 2 * pad.x)), below + height < window.y / 2 ? below : low.y - gap - height});
@@ -173,16 +176,21 @@ std::string all_digits(double x) {
   return text;
 }
 
-std::string at_the_point(double value) {
+std::vector<std::string> at_one_point(const std::vector<double>& values) {
   constexpr std::size_t most = 7;  // characters from the point on
   const auto from_the_point = [](const std::string& text) { return text.size() - std::min(text.find_first_of(".e"), text.size()); };
-  std::string text = short_number(value);
-  if (from_the_point(text) > most) {
-    char fewer[32];
-    std::snprintf(fewer, sizeof fewer, std::abs(value) < 1e-2 || text.find('e') != std::string::npos ? "%.2e" : "%.6f", value);
-    text = fewer;
+  const auto has_places = [](const std::string& text) { return text.find('.') != std::string::npos && text.find('e') == std::string::npos; };
+  std::vector<std::string> texts;
+  std::size_t longest = 0;
+  for (const double value : values) {
+    std::string text = short_number(value);
+    if (from_the_point(text) > most) text = formatted(value, std::abs(value) < 1e-2 || text.find('e') != std::string::npos ? "%.2e" : "%.6f");
+    if (has_places(text)) longest = std::max(longest, from_the_point(text));
+    texts.push_back(std::move(text));
   }
-  return text.append(most - std::min(most, from_the_point(text)), ' ');
+  for (std::string& text : texts)
+    if (has_places(text)) text.append(longest - from_the_point(text), ' ');
+  return texts;
 }
 
 void number_row(App& app, const char* label, double value, Colour colour, std::optional<std::size_t> source) { number_row(app, label, short_number(value), colour, source, all_digits(value)); }
@@ -341,7 +349,7 @@ std::string result_text(const Recording& recording) {
   if (r.signed_distance) {
     const double d = *r.signed_distance;
     const bool proven = !unproven(r);
-    text = d > 0 ? "apart, distance " + (proven ? short_number(d) : "at most " + short_number(*r.upper_bound)) : d == 0 ? "touching" : "overlapping, depth " + (proven ? short_number(-d) : "at most " + short_number(-*r.lower_bound));
+    text = d > 0 && r.lower_bound.value_or(d) <= 0 ? "seem apart, by at most " + short_number(r.upper_bound.value_or(d)) : d > 0 ? "apart, distance " + (proven ? short_number(d) : "at most " + short_number(*r.upper_bound)) : d == 0 ? "touching" : "overlapping, depth " + (proven ? short_number(-d) : "at most " + short_number(-*r.lower_bound));
     if (recording.scene.scene.query == Query::distance && r.intersecting) text = "overlapping";
   }
   return text;
