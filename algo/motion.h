@@ -25,6 +25,9 @@ std::vector<double> in_degrees(const AnyVector& radians);
 /// The body moved on by its velocities for a time, turning about its pose's position. A body without motion stays.
 Body moved(const Body& body, double time, int dimension);
 
+/// Its place and its motion: of a mesh a copy takes as long as all its triangles.
+inline Body without_shape(const Body& body) { return {"", {Sphere{0}, 0}, body.pose, body.motion}; }
+
 /// A mesh is its triangles, each a convex set of its own; anything else is itself.
 std::vector<Shape> convex_parts(const Shape& shape);
 /// One of a mesh's, with its margin.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "algo/motion.h"
+#include "recordings/mesh_parts.h"
 #include "shapes/world_support.h"
 
 namespace gjkdbg {
@@ -45,19 +46,37 @@ struct CastStretch {
     const WorldSupport a(two.bodies[0], two.dimension), b(two.bodies[1], two.dimension);
     return n.dot(b(-n, true) - a(n, true));
   }
-  /// The same of two parts of meshes: of all the one that is nearest to what is said.
-  static double along(const Scene& two, const AnyVector& n, double said) {
-    const auto heights = [&](std::size_t body, const AnyVector& d) {
-      std::vector<double> of_parts;
-      for (const Shape& part : convex_parts(two.bodies[body].shape))
-        of_parts.push_back(n.dot(WorldSupport(Body{two.bodies[body].name, part, two.bodies[body].pose}, two.dimension)(d, true)));
-      return of_parts;
+  /// The same of two parts of meshes at a time: of those that the run before this step was about, or else of all, the one that is nearest to what is said. Of a mesh nothing
+  /// is copied, nor all of it gone through where it needs not be: every triangle comes here once.
+  double along(const Two& pair, double time, const AnyVector& n, double said, double close, const Recording& recording, std::size_t step, CornerFinders& finders) const {
+    Frame frame;
+    frame.pair = pair, frame.step = step;
+    for (const Body& b : bodies) {
+      const Pose pose = moved(without_shape(b), time - from, scene.dimension).pose;
+      frame.places.push_back({pose.position, pose.matrix, {}, {}});
+    }
+    const auto height = [&](int i, const AnyVector& d, int triangle) {
+      const Body& whole = body(i);
+      const Frame::Place& place = frame.places[static_cast<std::size_t>(i)];
+      Body part{whole.name, triangle < 0 ? whole.shape : triangle_of(whole.shape, static_cast<std::size_t>(triangle)), whole.pose};
+      part.pose.position = place.position, part.pose.matrix = place.rotation;
+      return n.dot(WorldSupport(part, scene.dimension)(d, true));
     };
-    const std::vector<double> near = heights(1, -n);
     double best = std::numeric_limits<double>::infinity();
-    for (const double a : heights(0, n))
-      for (const double b : near)
-        if (std::abs(b - a - said) < std::abs(best - said)) best = b - a;
+    const auto take = [&](double apart) {
+      if (std::abs(apart - said) < std::abs(best - said)) best = apart;
+    };
+    for (const auto& [i, j] : fitting_triangles(recording, frame, &finders)) take(height(pair[1], -n, j) - height(pair[0], n, i));
+    if (std::abs(best - said) <= close) return best;
+    const auto heights = [&](int i, const AnyVector& d) {
+      const auto* mesh = std::get_if<Mesh>(&body(i).shape.geometry);
+      std::vector<double> all;
+      for (int k = mesh ? 0 : -1; k < (mesh ? static_cast<int>(mesh->triangles.size()) : 0); ++k) all.push_back(height(i, d, k));
+      return all;
+    };
+    const std::vector<double> near = heights(pair[1], -n);
+    for (const double a : heights(pair[0], n))
+      for (const double b : near) take(b - a);
     return best;
   }
 
@@ -66,7 +85,8 @@ struct CastStretch {
   /// The part of it that comes of turning: |w| times the reach.
   double turning(const Two& pair) const {
     double s = 0;
-    for (const int i : pair) s += motion(i).angular_velocity.norm() * reach_of(body(i).shape, scene.dimension);
+    for (const int i : pair)
+      if (turns(i)) s += motion(i).angular_velocity.norm() * reach_of(body(i).shape, scene.dimension);
     return s;
   }
   /// How fast they come nearer along n, turning aside.

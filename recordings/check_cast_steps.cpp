@@ -21,6 +21,7 @@ struct CastWalk : CastStretch {
   int responses = 0;
   const recorded::State* last_state = nullptr;
   const recorded::CastAdvanced* last_advance = nullptr;
+  mutable CornerFinders finders;
 
   explicit CastWalk(CheckContext& context)
       : CastStretch{context.recording.scene.scene}, c(context), result(c.recording.result), limit(c.stop * c.size + c.world), ray(c.recording.settings.name == MethodName::ray_cast), ours(!foreign(c.recording)) {}
@@ -46,6 +47,8 @@ struct CastWalk : CastStretch {
   /// After a response a cast goes on with the bodies that move against each other then. (What it begins with is compared with the scene elsewhere.)
   bool looks_at(const Two& pair) const { return bodies.size() == 2 || turns(pair[0]) || turns(pair[1]) || motion(pair[0]).velocity != motion(pair[1]).velocity; }
 
+  double along_parts(const Two& pair, double time, const AnyVector& n, double said) const { return along(pair, time, n, said, limit, c.recording, c.step, finders); }
+
   void advanced(const recorded::CastAdvanced& e) {
     last_advance = &e;
     if (!exists(e.pair)) return c.find("wrong-pair", "The scene has no " + names_of(e.pair) + ".");
@@ -55,14 +58,14 @@ struct CastWalk : CastStretch {
     if (!e.normal.allFinite() || e.normal.isZero(0)) return;
     const AnyVector n = e.normal.stableNormalized();
     closing(e, n);
-    const Scene two = at(e.pair, e.time);
     const std::string when = "At time " + text_of(e.time) + " " + names_of(e.pair);
     if (ray || has_mesh(e.pair)) {  // of a ray the plane just found; of a mesh the triangle looked at
       if (ray && !(e.distance > 0)) return c.find("wrong-distance", "A ray's plane is ahead of it, at a distance above zero, not " + text_of(e.distance) + ".");
-      if (const double apart = along(two, n, e.distance); std::abs(apart - e.distance) > limit)
+      if (const double apart = along_parts(e.pair, e.time, n, e.distance); std::abs(apart - e.distance) > limit)
         c.find("wrong-distance", when + " are " + text_of(apart) + " apart along the normal " + text_of(n) + ", not " + text_of(e.distance) + ".");
       return;
     }
+    const Scene two = at(e.pair, e.time);
     const double gap = gap_at(e.pair, e.time);
     if (any_way_out(c.recording.settings, gap) && e.distance < gap && std::abs(along(two, n) - e.distance) <= 10 * limit) return;
     if (std::abs(e.distance - gap) > limit) c.find("wrong-distance", when + " are " + text_of(gap) + " apart, not " + text_of(e.distance) + ".");
@@ -110,14 +113,14 @@ struct CastWalk : CastStretch {
 
   /// The two bodies touch then, along the normal and at the point.
   void place(const recorded::ImpulseApplied& e) const {
-    const Scene two = at(e.pair, e.time);
     const double gap = gap_at(e.pair, e.time);
     if (std::abs(gap) > limit) return c.find("wrong-time", "At time " + text_of(e.time) + " " + names_of(e.pair) + " are said to meet, but they " + (gap > 0 ? "are " + text_of(gap) + " apart." : "overlap by " + text_of(-gap) + "."));
     if (const std::string off = c.not_unit(e.normal, "An impulse's normal"); !off.empty()) return c.find("wrong-normal", off);
-    if (const double apart = along(two, e.normal, gap); apart < gap - 10 * limit)
-      return c.find(along(two, -e.normal, gap) >= gap - 10 * limit ? "flipped-normal" : "wrong-normal", "Where they meet, " + names_of(e.pair) + " overlap by " + text_of(-apart) + " along the normal " + text_of(e.normal) + " of their impulse.");
+    if (const double apart = along_parts(e.pair, e.time, e.normal, gap); apart < gap - 10 * limit)
+      return c.find(along_parts(e.pair, e.time, -e.normal, gap) >= gap - 10 * limit ? "flipped-normal" : "wrong-normal", "Where they meet, " + names_of(e.pair) + " overlap by " + text_of(-apart) + " along the normal " + text_of(e.normal) + " of their impulse.");
     if (ours && !ray && last_advance && last_advance->pair == e.pair && last_advance->normal.size() == e.normal.size() && (last_advance->normal - e.normal).norm() > 1e-9)
       c.find("inconsistent", "The impulse has the normal " + text_of(e.normal) + ", the step that found the impact " + text_of(last_advance->normal) + ".", Finding::Severity::warning);
+    const Scene two = at(e.pair, e.time);
     const bool round = std::any_of(two.bodies.begin(), two.bodies.end(), [&](const Body& b) { return !corners_of(b.shape, scene.dimension); });
     const double out_a = outside(two, 0, e.point), out_b = outside(two, 1, e.point);
     if (!e.point.allFinite() || std::max(out_a, out_b) > (round ? std::max(10 * limit, 1e-3 * c.size) : 10 * limit))

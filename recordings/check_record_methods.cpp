@@ -259,7 +259,7 @@ void RecordCheck::judge(const recorded::CastAdvanced& e) {
   const double straight = (a.motion->velocity - b.motion->velocity).dot(e.normal);
   double turning = 0;
   for (const Body* body : {&a, &b})
-    if (body->motion->angular_velocity.size() > 0) turning += body->motion->angular_velocity.norm() * reach_of(body->shape, c_.dimension);
+    if (body->motion->angular_velocity.size() > 0 && !body->motion->angular_velocity.isZero(0)) turning += body->motion->angular_velocity.norm() * reach_of(body->shape, c_.dimension);
   if (std::abs(e.bound - straight) > turning + 1e-6 * (std::abs(straight) + turning) + 100 * c_.digits() * (a.motion->velocity.norm() + b.motion->velocity.norm()))
     contradiction("The bound on how fast they come nearer is " + text_of(e.bound) + ", but along the normal they move at " + text_of(straight) + (turning > 0 ? ", and turn at no more than " + text_of(turning) + "." : "."));
 }

@@ -87,9 +87,8 @@ class Runs {
     two.query = Query::penetration;
     for (std::size_t k = 0; k < 2; ++k) {
       const auto i = static_cast<std::size_t>(of.pair[k]);
-      Body body = scene.bodies[i];
-      if (of.triangles[k] >= 0) body.shape = triangle_of(body.shape, static_cast<std::size_t>(of.triangles[k]));
-      body.motion.reset();
+      const Body& whole = scene.bodies[i];  // of a mesh no copy: there is a run for each triangle
+      Body body{whole.name, of.triangles[k] < 0 ? whole.shape : triangle_of(whole.shape, static_cast<std::size_t>(of.triangles[k])), whole.pose};
       body.pose.position = frame.places[i].position, body.pose.matrix = frame.places[i].rotation;
       body.pose.rotation = RotationMatrix{body.pose.matrix};
       two.bodies.push_back(std::move(body));
@@ -105,7 +104,7 @@ class Runs {
     if (counts == Two{-1, -1}) return fitting ? std::vector{counts} : std::vector<Two>();
     Frame of = frame;
     of.pair = pair, of.step = first;
-    if (fitting) return fitting_triangles(c_.recording, of);
+    if (fitting) return fitting_triangles(c_.recording, of, &finders_);
     std::vector<Two> all;
     for (int i = counts[0] < 0 ? -1 : 0; i < std::max(0, counts[0]); ++i)
       for (int j = counts[1] < 0 ? -1 : 0; j < std::max(0, counts[1]); ++j) all.push_back({i, j});
@@ -143,6 +142,7 @@ class Runs {
   CheckContext& c_;
   const std::vector<Event>& events_;
   Replay replay_;
+  mutable CornerFinders finders_;
   int told_ = 0;
 };
 

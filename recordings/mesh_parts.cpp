@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "algo/motion.h"
 #include "shapes/shape.h"
@@ -51,19 +52,24 @@ bool fits(const std::array<AnyVector, 3>& corners, double margin, std::size_t bo
   });
 }
 
-std::vector<int> triangles_that_fit(const Mesh& mesh, double margin, const Frame::Place& place, std::size_t body, const std::vector<const recorded::SupportQueried*>& supports) {
-  std::vector<int> found;
-  for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+std::vector<int> triangles_that_fit(const Mesh& mesh, double margin, const Frame::Place& place, std::size_t body, const std::vector<const recorded::SupportQueried*>& supports, const CornerFinder* finder) {
+  std::vector<int> candidates(finder ? 0 : mesh.triangles.size()), found;
+  std::iota(candidates.begin(), candidates.end(), 0);
+  if (finder) {
+    const AnyVector &point = body == 0 ? supports.front()->a : supports.front()->b, here = place.rotation.transpose() * (point - place.position);
+    candidates = finder->near(here, margin + 2e-6 * (point.norm() + place.position.norm() + finder->extent()));  // `fits` allows half of it
+  }
+  for (const int k : candidates) {
     std::array<AnyVector, 3> corners;
-    for (std::size_t i = 0; i < 3; ++i) corners[i] = place.rotation * mesh.points[static_cast<std::size_t>(mesh.triangles[k][i])] + place.position;
-    if (fits(corners, margin, body, supports)) found.push_back(static_cast<int>(k));
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = place.rotation * mesh.points[static_cast<std::size_t>(mesh.triangles[static_cast<std::size_t>(k)][i])] + place.position;
+    if (fits(corners, margin, body, supports)) found.push_back(k);
   }
   return found;
 }
 
 }  // namespace
 
-std::vector<std::array<int, 2>> fitting_triangles(const Recording& recording, const Frame& frame) {
+std::vector<std::array<int, 2>> fitting_triangles(const Recording& recording, const Frame& frame, CornerFinders* finders) {
   const Scene& scene = recording.scene.scene;
   const auto supports = supports_of_run(recording.events, frame.step);
   if (supports.empty() || frame.places.size() != scene.bodies.size()) return {};
@@ -71,7 +77,10 @@ std::vector<std::array<int, 2>> fitting_triangles(const Recording& recording, co
   for (std::size_t i = 0; i < 2; ++i) {
     const auto body = static_cast<std::size_t>(frame.pair[i]);
     const Shape& shape = scene.bodies[body].shape;
-    if (const auto* mesh = std::get_if<Mesh>(&shape.geometry)) found[i] = triangles_that_fit(*mesh, shape.margin, frame.places[body], i, supports);
+    const auto* mesh = std::get_if<Mesh>(&shape.geometry);
+    if (!mesh) continue;
+    const CornerFinder* const finder = finders ? &finders->try_emplace(mesh, *mesh).first->second : nullptr;
+    found[i] = triangles_that_fit(*mesh, shape.margin, frame.places[body], i, supports, finder);
   }
   std::vector<std::array<int, 2>> pairs;
   for (const int i : found[0])

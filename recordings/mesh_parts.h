@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "recordings/corner_finder.h"
 #include "recordings/replay.h"
 
 namespace gjkdbg {
@@ -18,6 +19,7 @@ struct MeshParts {
 std::optional<MeshParts> mesh_parts(const Recording& recording, const Frame& frame);
 
 /// Of a motion, where triangles that cannot be met are left out: all that the supports of the step's run fit, of which the first is taken for it; -1 of a body that is no mesh.
-std::vector<std::array<int, 2>> fitting_triangles(const Recording& recording, const Frame& frame);
+/// With `finders`, which are kept for the next call, much sooner where there are many.
+std::vector<std::array<int, 2>> fitting_triangles(const Recording& recording, const Frame& frame, CornerFinders* finders = nullptr);
 
 }  // namespace gjkdbg

@@ -16,6 +16,7 @@ struct Apply {
   Frame& frame;
   std::size_t step;
   const Recording& recording;
+  CornerFinders& finders;
 
   void operator()(const recorded::GjkBegan& e) {
     fresh();
@@ -279,31 +280,26 @@ struct Apply {
         frame.pair = {ended->pair[0], ended->pair[1]};
         return;
       }
-      if (const auto* contact = std::get_if<recorded::ContactFound>(&event)) {
-        frame.pair = contact->pair;
-        return;
-      }
+      if (const auto* contact = std::get_if<recorded::ContactFound>(&event)) return void(frame.pair = contact->pair);
       if (const auto* query = std::get_if<recorded::SupportQueried>(&event); query && !first) first = query;
     }
     const Scene& scene = recording.scene.scene;
     if (!first || !first->direction.allFinite() || first->direction.isZero(0) || frame.places.size() != scene.bodies.size()) return;
     const AnyVector d = first->direction.stableNormalized();
     const auto is_of = [&](std::size_t i, const AnyVector& along, const AnyVector& point) {
-      Body body = scene.bodies[i];
-      body.pose.position = frame.places[i].position, body.pose.matrix = frame.places[i].rotation;
-      const double reach = reach_of(body.shape, scene.dimension), close = 1e-9 * (reach + point.norm());
-      if ((point - body.pose.position).norm() > reach + close) return false;
-      if (const auto* mesh = std::get_if<Mesh>(&body.shape.geometry))
-        return std::any_of(mesh->points.begin(), mesh->points.end(), [&](const AnyVector& p) { return (body.pose.matrix * p + body.pose.position - point).norm() <= close; });
-      const WorldSupport support(body, scene.dimension);
+      const Shape& shape = scene.bodies[i].shape;
+      const Frame::Place& place = frame.places[i];
+      const auto* mesh = std::get_if<Mesh>(&shape.geometry);
+      const CornerFinder* const corners = mesh ? &finders.try_emplace(mesh, *mesh).first->second : nullptr;
+      const double reach = corners ? corners->extent() + shape.margin : reach_of(shape, scene.dimension), close = 1e-9 * (reach + point.norm());
+      if ((point - place.position).norm() > reach + close) return false;
+      if (corners) return corners->any_near(place.rotation.transpose() * (point - place.position), close);
+      const WorldSupport support(Body{"", shape, {place.position, {}, place.rotation}}, scene.dimension);
       return std::abs(along.dot(point - support(along, false))) <= close || std::abs(along.dot(point - support(along, true))) <= close;
     };
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
       for (std::size_t j = i + 1; j < scene.bodies.size(); ++j)
-        if (is_of(i, d, first->a) && is_of(j, -d, first->b)) {
-          frame.pair = {static_cast<int>(i), static_cast<int>(j)};
-          return;
-        }
+        if (is_of(i, d, first->a) && is_of(j, -d, first->b)) return void(frame.pair = {static_cast<int>(i), static_cast<int>(j)});
   }
 
   /// From where the last state left the bodies, or where the scene has them.
@@ -311,7 +307,7 @@ struct Apply {
     const Scene& scene = recording.scene.scene;
     std::vector<Frame::Place> places;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-      Body body = scene.bodies[i];
+      Body body = without_shape(scene.bodies[i]);
       const bool placed = i < frame.places.size() && from > 0;
       if (placed) body.pose.position = frame.places[i].position, body.pose.matrix = frame.places[i].rotation;
       if (placed && body.motion) body.motion->velocity = frame.places[i].velocity;
@@ -357,10 +353,10 @@ struct Apply {
   }
 };
 
-void apply(Frame& frame, const Recording& recording, std::size_t step) {
+void apply(Frame& frame, const Recording& recording, std::size_t step, CornerFinders& finders) {
   frame.step = step;
   frame.dropped.clear(), frame.removed.clear(), frame.horizon.clear(), frame.added.clear();
-  std::visit(Apply{frame, step, recording}, recording.events[step]);
+  std::visit(Apply{frame, step, recording, finders}, recording.events[step]);
   const auto* cut = std::get_if<recorded::SimplexReduced>(&recording.events[step]);
   frame.lettered = cut ? cut->before : frame.simplex;
 }
@@ -370,7 +366,8 @@ void apply(Frame& frame, const Recording& recording, std::size_t step) {
 Frame frame_at(const Recording& recording, std::size_t step) {
   if (step >= recording.events.size()) throw std::out_of_range("no such step");
   Frame frame;
-  for (std::size_t i = 0; i <= step; ++i) apply(frame, recording, i);
+  CornerFinders finders;
+  for (std::size_t i = 0; i <= step; ++i) apply(frame, recording, i, finders);
   fill_vertices(frame, recording, index_vertices(recording));
   return frame;
 }
@@ -387,7 +384,7 @@ const Frame& Replay::at(std::size_t step) {
   }
   while (!started_ || current_.step < step) {
     const std::size_t next = started_ ? current_.step + 1 : 0;
-    apply(current_, *recording_, next);
+    apply(current_, *recording_, next, finders_);
     started_ = true;
     if ((next + 1) % snapshot_distance == 0 && snapshots_.size() < (next + 1) / snapshot_distance)
       snapshots_.push_back(std::make_shared<const Frame>(current_));

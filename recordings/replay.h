@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "recordings/corner_finder.h"
 #include "recordings/recording.h"
 
 namespace gjkdbg {
@@ -113,6 +114,7 @@ class Replay {
   const Recording* recording_;
   std::map<int, std::vector<std::size_t>> vertices_;  ///< the events that gave out each number
   std::vector<std::shared_ptr<const Frame>> snapshots_;  ///< after events 255, 511, …
+  CornerFinders finders_;
   Frame current_;
   bool started_ = false, filled_ = false;  ///< filled: with the vertices of the step last asked for
 };

@@ -219,7 +219,7 @@ class Program(unittest.TestCase):
         self.refused(run("atlas", "--gate"), "gjkdbg atlas --help")
         self.refused(run("dump", self.scene, "--method", "gjkk"), "--method: must be one of gjk,gjk-boolean", "not gjkk; did you mean gjk?")
         self.refused(run("dump", self.scene, "--name", "gjkk"), "gjkdbg: --name: must be one of ")
-        self.refused(run("dump", self.scene, "--max-iterations=0"), "gjkdbg: --max-iterations: must be a number")
+        self.refused(run("dump", self.scene, "--max-iterations=0"), "gjkdbg: --max-iterations: must be a whole number")
         self.refused(run("sweep", "--exec", "true", "--scalar", "half"), "--scalar: must be one of double,float, not half (see gjkdbg sweep --help)")
         self.refused(subprocess.run([PROGRAM], capture_output=True, text=True), "--help")
         for command in ("dump", "check", "query", "verify"):

@@ -60,11 +60,11 @@ void no_longer_interruptible() {
   running_group = 0;
 }
 
-[[noreturn]] void run_child(const std::string& command, const int in[2], const int out[2], int errors) {
+[[noreturn]] void run_child(const std::string& command, const int in[2], const int out[2], const int errors[2]) {
   setpgid(0, 0);
   dup2(in[0], STDIN_FILENO);
   dup2(out[1], STDOUT_FILENO);
-  dup2(errors, STDERR_FILENO);
+  dup2(errors[1], STDERR_FILENO);
   signal(SIGPIPE, SIG_DFL);
   execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
   _exit(127);
@@ -72,18 +72,17 @@ void no_longer_interruptible() {
 
 }  // namespace
 
-SolverProcess::SolverProcess(const std::string& command, int errors) {
-  int in[2], out[2];
-  open_pipe(in), open_pipe(out);
+SolverProcess::SolverProcess(const std::string& command, int errors) : errors_(errors) {
+  int in[2], out[2], said[2];
+  open_pipe(in), open_pipe(out), open_pipe(said);
   pid_ = fork();
-  if (pid_ == 0) run_child(command, in, out, errors);
-  close(in[0]), close(out[1]);
+  if (pid_ == 0) run_child(command, in, out, said);
+  close(in[0]), close(out[1]), close(said[1]);
   if (pid_ < 0) cannot_start();
   setpgid(pid_, pid_);  // both sides do: whoever comes first
   end_when_interrupted(pid_);
-  to_ = in[1], from_ = out[0];
-  fcntl(to_, F_SETFL, O_NONBLOCK);
-  fcntl(from_, F_SETFL, O_NONBLOCK);
+  to_ = in[1], from_ = out[0], complaints_ = said[0];
+  for (const int descriptor : {to_, from_, complaints_}) fcntl(descriptor, F_SETFL, O_NONBLOCK);
 }
 
 /// Whoever still runs is ended before its input is closed: it would read the end of it, and its complaint would stand before the findings.
@@ -91,6 +90,8 @@ SolverProcess::~SolverProcess() {
   if (pid_ > 0) kill(-pid_, SIGKILL);
   close_input();
   if (from_ >= 0) close(from_);
+  listen();  // what was said before
+  if (complaints_ >= 0) close(complaints_);
   no_longer_interruptible();
   int status = 0;
   if (pid_ > 0) waitpid(pid_, &status, 0);
@@ -102,6 +103,44 @@ void SolverProcess::end() {
 }
 
 bool SolverProcess::over(Deadline deadline) const { return to_end_ || std::chrono::steady_clock::now() >= deadline; }
+
+/// Passes on what has come of its standard error.
+void SolverProcess::listen() {
+  constexpr std::size_t kept = 4096;
+  char chunk[4096];
+  while (complaints_ >= 0) {
+    const ssize_t n = read(complaints_, chunk, sizeof chunk);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0 && errno == EAGAIN) return;
+    if (n <= 0) {
+      close(complaints_);
+      complaints_ = -1;
+      return;
+    }
+    complained_.append(chunk, static_cast<std::size_t>(n));
+    if (complained_.size() > kept) complained_.erase(0, complained_.size() - kept);
+    for (ssize_t at = 0; at < n;) {
+      const ssize_t passed = write(errors_, chunk + at, static_cast<std::size_t>(n - at));
+      if (passed > 0) at += passed;
+      else if (!(passed < 0 && errno == EINTR)) break;
+    }
+  }
+}
+
+/// Until something can be done with the descriptor, or is said meanwhile, or a tenth of a second is over.
+void SolverProcess::poll_one(int descriptor, short events, Deadline deadline) {
+  pollfd waiting[2]{{descriptor, events, 0}, {complaints_, POLLIN, 0}};  // of a negative one nothing is heard
+  poll(waiting, 2, milliseconds_until(deadline));
+  listen();
+}
+
+std::string SolverProcess::last_words() {
+  listen();
+  const std::size_t end = complained_.find_last_not_of(" \t\r\n");
+  if (end == std::string::npos) return "";
+  const std::size_t before = complained_.find_last_of('\n', end), begin = before == std::string::npos ? 0 : before + 1;
+  return complained_.substr(begin, end + 1 - begin);
+}
 
 void SolverProcess::close_input() {
   if (to_ >= 0) close(to_);
@@ -116,8 +155,7 @@ SolverProcess::Outcome SolverProcess::write_line(const std::string& line, Deadli
     if (n > 0) {
       sent += static_cast<std::size_t>(n);
     } else if (n < 0 && errno == EAGAIN) {
-      pollfd wait{to_, POLLOUT, 0};
-      poll(&wait, 1, milliseconds_until(deadline));
+      poll_one(to_, POLLOUT, deadline);
       if (over(deadline)) return Outcome::timeout;
     } else if (!(n < 0 && errno == EINTR)) {
       return Outcome::closed;
@@ -135,8 +173,7 @@ SolverProcess::Outcome SolverProcess::read_line(std::string& line, Deadline dead
     }
     if (buffer_.size() > longest_line) return Outcome::too_long;
     if (over(deadline)) return Outcome::timeout;
-    pollfd wait{from_, POLLIN, 0};
-    poll(&wait, 1, milliseconds_until(deadline));
+    poll_one(from_, POLLIN, deadline);
     char chunk[65536];
     const ssize_t n = read(from_, chunk, sizeof chunk);
     if (n > 0) {
@@ -152,6 +189,7 @@ SolverProcess::Outcome SolverProcess::read_line(std::string& line, Deadline dead
 std::optional<std::string> SolverProcess::wait(Deadline deadline) {
   while (true) {
     int status = 0;
+    listen();  // who is not heard may not come to its end
     const pid_t done = waitpid(pid_, &status, WNOHANG);
     if (done == pid_) {
       running_group = 0;     // its number may be another's from now on

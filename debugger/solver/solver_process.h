@@ -13,7 +13,7 @@ namespace gjkdbg {
 
 class SolverProcess {
  public:
-  /// Starts `command` by /bin/sh in a process group of its own; its standard error goes to the descriptor `errors`. Throws Error when that fails.
+  /// Starts `command` by /bin/sh in a process group of its own; its standard error goes on to the descriptor `errors`. Throws Error when that fails.
   SolverProcess(const std::string& command, int errors);
   /// Kills the whole group it started, and nothing else. So does a signal that ends us while it runs (Ctrl-C).
   ~SolverProcess();
@@ -31,15 +31,20 @@ class SolverProcess {
   void end();
   /// How it ended, if it does by the deadline: "exit status 3", "signal 11 (Segmentation fault)"; "" for exit status 0.
   std::optional<std::string> wait(Deadline deadline);
+  /// The last line that is not blank of what it wrote to its standard error so far; "" if there is none.
+  std::string last_words();
 
  private:
   bool over(Deadline deadline) const;
+  void listen();
+  void poll_one(int descriptor, short events, Deadline deadline);
 
   static constexpr std::size_t longest_line = 1 << 20;
   std::atomic<pid_t> pid_ = -1;
   std::atomic<bool> to_end_ = false;
-  int to_ = -1, from_ = -1;
-  std::string buffer_;
+  int to_ = -1, from_ = -1, complaints_ = -1;
+  const int errors_;
+  std::string buffer_, complained_;  ///< the latter: the last of it
 };
 
 }  // namespace gjkdbg

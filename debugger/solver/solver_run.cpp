@@ -26,11 +26,17 @@ bool completed_by(SolverRecorder& recorder, const std::string& rest) {
   return recorder.done();
 }
 
+/// Of what it said on its standard error, which is passed on as it comes.
+std::string last_words(SolverProcess& process) {
+  const std::string words = process.last_words();
+  return words.empty() ? "" : " Its last words: " + shortened(words);
+}
+
 /// The program has closed its output: it ended, or soon will.
 void ended(SolverProcess& process, SolverRecorder& recorder, SolverProcess::Deadline deadline, const std::string& rest) {
   const auto how = process.wait(std::min(deadline, std::chrono::steady_clock::now() + std::chrono::seconds(2)));
   const std::string after = " after " + std::to_string(recorder.supports()) + " support queries";
-  if (how && !how->empty()) return recorder.abort("crash", "The solver ended with " + *how + after + ", before it gave a result. Its own error output says more.");
+  if (how && !how->empty()) return recorder.abort("crash", "The solver ended with " + *how + after + ", before it gave a result." + last_words(process));
   const std::string what = how ? "The solver ended" : "The solver closed its output";
   if (!rest.empty()) return recorder.abort("bad-message", what + " in the middle of a line: " + shortened(rest));
   recorder.abort("no-result", what + after + " without a \"result\" message. Print it last, and flush the output.");
@@ -84,7 +90,7 @@ void talk(SolverProcess& process, SolverRecorder& recorder, const SolverLimits& 
   // It has some time to end well. One that goes on is ended.
   const auto how = process.wait(std::chrono::steady_clock::now() + std::chrono::seconds(2));
   if (!how) recorder.warn("timeout", "The solver gave its result, and then did not end, though its input was closed. It was ended.");
-  if (how && !how->empty()) recorder.warn("crash", "The solver gave its result, and then ended with " + *how + ". Its own error output says more.");
+  if (how && !how->empty()) recorder.warn("crash", "The solver gave its result, and then ended with " + *how + "." + last_words(process));
 }
 
 }  // namespace
