@@ -16,7 +16,7 @@ struct Apply {
   Frame& frame;
   std::size_t step;
   const Recording& recording;
-  CornerFinders& finders;
+  ReplayIndex& index;
 
   void operator()(const recorded::GjkBegan& e) {
     fresh();
@@ -290,10 +290,9 @@ struct Apply {
       const Shape& shape = scene.bodies[i].shape;
       const Frame::Place& place = frame.places[i];
       const auto* mesh = std::get_if<Mesh>(&shape.geometry);
-      const CornerFinder* const corners = mesh ? &finders.try_emplace(mesh, *mesh).first->second : nullptr;
+      const CornerFinder* const corners = mesh ? &index.finders.try_emplace(mesh, *mesh).first->second : nullptr;
       const double reach = corners ? corners->extent() + shape.margin : reach_of(shape, scene.dimension), close = 1e-9 * (reach + point.norm());
-      if ((point - place.position).norm() > reach + close) return false;
-      if (corners) return corners->any_near(place.rotation.transpose() * (point - place.position), close);
+      if (const bool far = (point - place.position).norm() > reach + close; far || corners) return !far && corners->any_near(place.rotation.transpose() * (point - place.position), close);
       const WorldSupport support(Body{"", shape, {place.position, {}, place.rotation}}, scene.dimension);
       return std::abs(along.dot(point - support(along, false))) <= close || std::abs(along.dot(point - support(along, true))) <= close;
     };
@@ -324,12 +323,11 @@ struct Apply {
 
   /// The time of the last response before this step; before the first, 0.
   double last_state_time() {
-    for (std::size_t i = step; i-- > 0;)
-      if (const auto* state = std::get_if<recorded::State>(&recording.events[i])) {
-        if (frame.time != state->time) stand(*state);
-        return state->time;
-      }
-    return 0;
+    const auto after = std::lower_bound(index.states.begin(), index.states.end(), step);
+    if (after == index.states.begin()) return 0;
+    const auto& state = std::get<recorded::State>(recording.events[*std::prev(after)]);
+    if (frame.time != state.time) stand(state);
+    return state.time;
   }
 
   void add(const std::vector<recorded::Face>& faces) {
@@ -353,10 +351,10 @@ struct Apply {
   }
 };
 
-void apply(Frame& frame, const Recording& recording, std::size_t step, CornerFinders& finders) {
+void apply(Frame& frame, const Recording& recording, std::size_t step, ReplayIndex& index) {
   frame.step = step;
   frame.dropped.clear(), frame.removed.clear(), frame.horizon.clear(), frame.added.clear();
-  std::visit(Apply{frame, step, recording, finders}, recording.events[step]);
+  std::visit(Apply{frame, step, recording, index}, recording.events[step]);
   const auto* cut = std::get_if<recorded::SimplexReduced>(&recording.events[step]);
   frame.lettered = cut ? cut->before : frame.simplex;
 }
@@ -366,13 +364,18 @@ void apply(Frame& frame, const Recording& recording, std::size_t step, CornerFin
 Frame frame_at(const Recording& recording, std::size_t step) {
   if (step >= recording.events.size()) throw std::out_of_range("no such step");
   Frame frame;
-  CornerFinders finders;
-  for (std::size_t i = 0; i <= step; ++i) apply(frame, recording, i, finders);
+  ReplayIndex index(recording);
+  for (std::size_t i = 0; i <= step; ++i) apply(frame, recording, i, index);
   fill_vertices(frame, recording, index_vertices(recording));
   return frame;
 }
 
-Replay::Replay(const Recording& recording) : recording_(&recording), vertices_(index_vertices(recording)) {}
+ReplayIndex::ReplayIndex(const Recording& recording) {
+  for (std::size_t i = 0; i < recording.events.size(); ++i)
+    if (std::holds_alternative<recorded::State>(recording.events[i])) states.push_back(i);
+}
+
+Replay::Replay(const Recording& recording) : recording_(&recording), vertices_(index_vertices(recording)), index_(recording) {}
 
 const Frame& Replay::at(std::size_t step) {
   if (step >= recording_->events.size()) throw std::out_of_range("no such step");
@@ -384,7 +387,7 @@ const Frame& Replay::at(std::size_t step) {
   }
   while (!started_ || current_.step < step) {
     const std::size_t next = started_ ? current_.step + 1 : 0;
-    apply(current_, *recording_, next, finders_);
+    apply(current_, *recording_, next, index_);
     started_ = true;
     if ((next + 1) % snapshot_distance == 0 && snapshots_.size() < (next + 1) / snapshot_distance)
       snapshots_.push_back(std::make_shared<const Frame>(current_));

@@ -102,6 +102,13 @@ Frame frame_at(const Recording& recording, std::size_t step);
 /// The simplex that the last GJK run of a static scene ended with, in the bodies' frames: for Start::previous. Empty when there was none.
 std::vector<SimplexPoint> last_simplex(const Recording& recording);
 
+/// What would else be looked for in all of a recording, at every step.
+struct ReplayIndex {
+  explicit ReplayIndex(const Recording& recording);
+  std::vector<std::size_t> states;  ///< the steps that say where the bodies are
+  CornerFinders finders;
+};
+
 class Replay {
  public:
   /// Keeps a reference: the recording must outlive the replay and not change.
@@ -114,7 +121,7 @@ class Replay {
   const Recording* recording_;
   std::map<int, std::vector<std::size_t>> vertices_;  ///< the events that gave out each number
   std::vector<std::shared_ptr<const Frame>> snapshots_;  ///< after events 255, 511, …
-  CornerFinders finders_;
+  ReplayIndex index_;
   Frame current_;
   bool started_ = false, filled_ = false;  ///< filled: with the vertices of the step last asked for
 };
