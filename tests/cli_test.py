@@ -368,6 +368,17 @@ class Program(unittest.TestCase):
             self.assertEqual((result.returncode, result.stderr), (0, ""))
         self.assertEqual(json.loads(result.stdout)["signed_distance"], 2)
 
+    def test_query_answers_each_line_as_it_comes(self):
+        with subprocess.Popen([PROGRAM, "query", "-"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as program:
+            for k in range(3):
+                program.stdin.write(json.dumps({**CUBES, "id": k}) + "\n")
+                program.stdin.flush()
+                self.assertEqual(json.loads(program.stdout.readline())["id"], k)  # before the next is asked
+            program.stdin.write(json.dumps({**CUBES, "id": "without an end"}))
+            program.stdin.close()
+            self.assertEqual(json.loads(program.stdout.read())["id"], "without an end")
+            self.assertEqual(program.wait(timeout=60), 0)
+
     def test_query_stops_when_nobody_reads(self):
         # As long as it reads, there is more; the files are for the statuses.
         line = self.write("line", json.dumps(CUBES))

@@ -79,8 +79,14 @@ bool OutputFile::write(std::string_view text) {
   return false;
 }
 
+bool OutputFile::flush() {
+  if (std::fflush(file_) == 0) return true;
+  if (!unwanted()) fail();
+  return false;
+}
+
 void OutputFile::commit() {
-  if (std::fflush(file_) != 0 && !unwanted()) fail();
+  flush();
   if (file_ == stdout) return;
   std::FILE* const file = file_;
   file_ = nullptr;

@@ -19,6 +19,8 @@ class OutputFile {
 
   /// False when nobody reads standard output any more.
   bool write(std::string_view text);
+  /// What was written, out of our hands; a file still takes its place in `commit` only. False as above.
+  bool flush();
   void commit();
 
  private:

@@ -1,16 +1,20 @@
 // query: a scene a line in, a result a line out, in order, in constant memory.
 //
 // Lines are read in blocks. Each block is cut into as many parts as there are jobs; the parts are answered at the
-// same time and written one after the other.
+// same time and written one after the other. Who writes a line to standard input and waits has its answer: a block ends where nothing more is at hand.
+#include <poll.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <fstream>
 #include <iostream>
 #include <memory>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 #include "algo/solve.h"
 #include "debugger/commands/commands.h"
@@ -52,6 +56,47 @@ std::string id_of(const Json& json, const std::string& line) {
   return id->is_number_float() || id->is_structured() ? member_text(line, "id") : id->dump();
 }
 
+/// The lines of a file, or of standard input as they come.
+class Lines {
+ public:
+  explicit Lines(const std::string& input) {
+    if (input != "-") file_ = open_input(input);
+    else standard_ = true;
+  }
+  bool next(std::string& line) {
+    if (!standard_) return static_cast<bool>(std::getline(file_, line));
+    while (true) {
+      if (const std::size_t end = read_.find('\n', at_); end != std::string::npos) {
+        line.assign(read_, at_, end - at_);
+        at_ = end + 1;
+        return true;
+      }
+      read_.erase(0, at_), at_ = 0;
+      if (ended_) break;
+      char chunk[65536];
+      const ssize_t n = read(STDIN_FILENO, chunk, sizeof chunk);
+      if (n > 0) read_.append(chunk, static_cast<std::size_t>(n));
+      else if (n == 0 || errno != EINTR) ended_ = true;
+    }
+    line = std::exchange(read_, "");
+    return !line.empty();
+  }
+  /// All of it, line ends and all.
+  bool whole(std::string& text) { return static_cast<bool>(std::getline(file_, text, '\0')); }
+  /// Whether the next line, or the end, need not be waited for.
+  bool at_hand() const {
+    if (!standard_ || ended_ || read_.find('\n', at_) != std::string::npos) return true;
+    pollfd waiting{STDIN_FILENO, POLLIN, 0};
+    return poll(&waiting, 1, 0) != 0;
+  }
+
+ private:
+  std::ifstream file_;
+  std::string read_;
+  std::size_t at_ = 0;
+  bool standard_ = false, ended_ = false;
+};
+
 class Queries {
  public:
   std::string input, output;
@@ -59,23 +104,20 @@ class Queries {
   MethodFlags flags;
 
   int run() {
-    std::ifstream file;
-    if (input != "-") {
-      file = open_input(input);
-      directory_ = directory_of(input);
-    }
-    std::istream& in = input == "-" ? std::cin : file;
+    Lines in(input);
+    if (input != "-") directory_ = directory_of(input);
     OutputFile out(output);
     std::vector<std::string> lines(block_lines * static_cast<std::size_t>(jobs));
-    bool wanted = true;
-    while (in && wanted) {
+    for (bool wanted = true; wanted;) {
       const std::size_t count = read_block(in, lines);
+      if (count == 0) break;
       for (const Answers& part : answer_block(lines, count)) {
         wanted = wanted && out.write(part.text);
         errors_ += part.errors, missed_ += part.missed;
         if (first_missed_ == 0) first_missed_ = part.first_missed;
         if (first_error_.empty()) first_error_ = part.first_error;
       }
+      wanted = wanted && out.flush();
       line_ += count;
       progress(false);
     }
@@ -86,15 +128,15 @@ class Queries {
 
  private:
   /// A scene file is one query, however many lines it has.
-  std::size_t read_block(std::istream& in, std::vector<std::string>& lines) const {
-    if (input.ends_with(".scene.json")) return std::getline(in, lines[0], '\0') ? 1 : 0;
+  std::size_t read_block(Lines& in, std::vector<std::string>& lines) const {
+    if (input.ends_with(".scene.json")) return in.whole(lines[0]) ? 1 : 0;
     std::size_t count = 0;
-    while (count < lines.size() && std::getline(in, lines[count])) ++count;
+    while (count < lines.size() && (count == 0 || in.at_hand()) && in.next(lines[count])) ++count;
     return count;
   }
 
   std::vector<Answers> answer_block(const std::vector<std::string>& lines, std::size_t count) const {
-    const auto parts = static_cast<std::size_t>(jobs);
+    const std::size_t parts = std::min(static_cast<std::size_t>(jobs), count);
     std::vector<Answers> answers(parts);
     std::vector<std::thread> threads;
     const auto work = [&](std::size_t part) {
