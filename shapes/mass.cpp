@@ -207,6 +207,7 @@ Matrix<D, double> rounder_of(const MassProperties& m) {
   const Eigen::SelfAdjointEigenSolver<Matrix<D, double>> axes(second.topLeftCorner<D, D>());
   Vector<D, double> wide = axes.eigenvalues();
   const double most = wide.maxCoeff();
+  if (!(most > 0)) return Matrix<D, double>::Identity();  // a point, or so small that its moments are no numbers
   for (int i = 0; i < D; ++i) wide[i] = wide[i] > 1e-24 * most ? std::sqrt(most / wide[i]) : 0;
   return axes.eigenvectors() * wide.asDiagonal() * axes.eigenvectors().transpose();
 }
@@ -218,7 +219,7 @@ MassProperties sampled(const Shape& shape) {
   Vector<D, double> extent;
   for (int i = 0; i < D; ++i) extent[i] = convex.support(Vector<D, double>::Unit(i))[i] - convex.support(-Vector<D, double>::Unit(i))[i] + 2 * convex.radius();
   const double most = extent.maxCoeff();
-  for (int i = 0; i < D; ++i) extent[i] = extent[i] > 1e-12 * most ? most / extent[i] : 0;
+  for (int i = 0; i < D; ++i) extent[i] = most == 0 ? 1 : extent[i] > 1e-12 * most ? most / extent[i] : 0;
   constexpr int few = D == 2 ? 90 : 150, many = D == 2 ? 720 : 800;
   MassProperties m = filled<D>(convex, extent.asDiagonal(), few);
   for (const int count : {few, many}) m = filled<D>(convex, rounder_of<D>(m), count);

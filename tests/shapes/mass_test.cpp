@@ -100,6 +100,18 @@ TEST(Mass, OfFlatSumsIsFlat) {
   expect_mass(sum_of(segment_to(Space(1, 2, 0)), point_at(Space(0, 0, 0))), mass_properties(segment_to(Space(1, 2, 0)), 3), 3, 1e-9);
 }
 
+TEST(Mass, OfPointsAndOfWhatIsTooSmallForMoments) {
+  const MassProperties twice = mass_properties(sum_of(point_at(Space(1, 2, 3)), point_at(Space(1, 0, 0))), 3);
+  EXPECT_EQ(twice.center, Space(2, 2, 3));
+  EXPECT_TRUE(twice.inertia.isZero(0));
+  EXPECT_EQ(mass_properties(sum_of(point_at(Eigen::Vector2d(1, 2)), point_at(Eigen::Vector2d(1, 0))), 2).center, Space(2, 2, 0));
+  for (const double size : {1e-300, 1e-200, 1e-100, 1e60}) {
+    const MassProperties exact = mass_properties({Ellipsoid{size * Space(1, 2, 3)}, 0}, 3), m = mass_properties(sum_of({Ellipsoid{size * Space(1, 2, 3)}, 0}, point_at(Space(0, 0, 0))), 3);
+    EXPECT_LE((m.inertia - exact.inertia).cwiseAbs().maxCoeff(), 2e-3 * exact.inertia.cwiseAbs().maxCoeff()) << size;
+    EXPECT_LE(m.center.stableNorm(), 2e-3 * size) << size;
+  }
+}
+
 TEST(Mass, OnALineIsTheMiddle) {
   const auto at = [](double x) { return Eigen::Matrix<double, 1, 1>(x); };
   const Shape interval{Box{at(2), at(6)}, 0}, points{PointSet{PointSetKind::segment, {at(-1), at(3)}, {}}, 0};
