@@ -93,18 +93,18 @@ std::vector<std::array<int, 3>> polygon_triangles(std::span<const AnyVector> poi
   const auto at = [&](int i) -> const AnyVector& { return points[static_cast<std::size_t>(corners[static_cast<std::size_t>(i)])]; };
   std::vector<std::array<int, 3>> triangles;
   const std::vector<Corner> flat = corners.size() > 3 ? seen_flat(points, corners) : std::vector<Corner>();
-  if (flat.empty()) {
-    for (int i = 1; i + 1 < static_cast<int>(corners.size()); ++i) triangles.push_back({0, i, i + 1});
-  } else if (corners.size() == 4 && turn(flat[0], flat[1], flat[2]) > 0 && turn(flat[1], flat[2], flat[3]) > 0 && turn(flat[2], flat[3], flat[0]) > 0 && turn(flat[3], flat[0], flat[1]) > 0 &&
-             (at(3) - at(1)).norm() < (at(2) - at(0)).norm()) {
+  if (flat.size() == 4 && turn(flat[0], flat[1], flat[2]) > 0 && turn(flat[1], flat[2], flat[3]) > 0 && turn(flat[2], flat[3], flat[0]) > 0 && turn(flat[3], flat[0], flat[1]) > 0 &&
+      (at(3) - at(1)).norm() < (at(2) - at(0)).norm()) {
     triangles = {{0, 1, 3}, {1, 2, 3}};
-  } else {
+  } else if (!flat.empty()) {
     triangles = Ears(flat).cut();
     std::erase_if(triangles, [&](const std::array<int, 3>& t) {  // what is a line as it is seen may be none in space, where the polygon is not flat
       const Eigen::Vector3d a = at(t[0]), ab = Eigen::Vector3d(at(t[1])) - a, ac = Eigen::Vector3d(at(t[2])) - a;
       return ab.stableNormalized().cross(ac.stableNormalized()).norm() < 1e-14;
     });
   }
+  if (triangles.empty())  // three corners, or a line: nothing is to be lost of it
+    for (int i = 1; i + 1 < static_cast<int>(corners.size()); ++i) triangles.push_back({0, i, i + 1});
   for (auto& triangle : triangles)
     for (int& i : triangle) i = corners[static_cast<std::size_t>(i)];
   return triangles;

@@ -71,6 +71,7 @@ TEST(PolygonTriangles, OfWhatIsSpecial) {
   EXPECT_EQ(cut({{0, 0}, {2, 0}, {1, 0}, {1, 1}}).size(), 1u) << "a spike";
   EXPECT_EQ(cut({{0, 0}, {1, 0}, {2, 0}, {2, 1}, {0, 1}}).size(), 2u) << "a corner on an edge";
   EXPECT_EQ(cut({{0, 0}, {1, 1}, {2, 2}, {3, 3}}).size(), 2u) << "a line stays one";
+  EXPECT_GE(cut({{0, 0}, {1e30, 0}, {1e30, 1e-30}, {0, 1e-30}}).size(), 1u) << "nearly one, too: a half less than rounding may go, not all";
   EXPECT_FALSE(cut({{0, 0}, {1, 1}, {1, 0}, {0, 2}, {3, 3}}).empty()) << "it crosses itself";
   EXPECT_EQ(polygon_triangles({}, {}).size(), 0u);
 }
