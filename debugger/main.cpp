@@ -108,13 +108,21 @@ void keep_standard_streams() {
     if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDONLY);
 }
 
-/// Where no memory is left the program ends here: an exception would not reach `run`, because JSON values need memory even to be destroyed.
+extern "C" void wait_for_the_end(int) {
+  for (;;) pause();
+}
+
+/// Where no memory is left the program ends here: an exception would not reach `run`, because JSON values need memory even to be destroyed. Another thread that has none
+/// may be ended by the C library, with words of its own (a destructor that it cannot note down): nobody hears them, and it waits.
 [[noreturn]] void out_of_memory() {
   static std::atomic_flag told_already;
   while (told_already.test_and_set()) pause();  // another thread is ending the program
+  std::signal(SIGABRT, wait_for_the_end);
+  const int errors = dup(STDERR_FILENO), nowhere = open("/dev/null", O_WRONLY);
+  if (errors >= 0 && nowhere >= 0) dup2(nowhere, STDERR_FILENO);
   gjkdbg::abandon_output();
   constexpr std::string_view said = "gjkdbg: out of memory\n";
-  [[maybe_unused]] const auto told = write(STDERR_FILENO, said.data(), said.size());
+  [[maybe_unused]] const auto told = write(errors >= 0 ? errors : STDERR_FILENO, said.data(), said.size());
   _exit(gjkdbg::exit_bad_input);
 }
 
