@@ -368,6 +368,12 @@ class Program(unittest.TestCase):
             self.assertEqual((result.returncode, result.stderr), (0, ""))
         self.assertEqual(json.loads(result.stdout)["signed_distance"], 2)
 
+    def test_a_solver_that_complains_without_end_has_its_time_limit(self):
+        with open("/dev/null", "w") as nowhere:
+            result = subprocess.run([PROGRAM, "run", self.scene, "--exec", "yes complaint >&2", "--timeout", "1"], stdout=subprocess.PIPE, stderr=nowhere, text=True, timeout=60)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("timeout", result.stdout)
+
     def test_query_answers_each_line_as_it_comes(self):
         with subprocess.Popen([PROGRAM, "query", "-"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as program:
             for k in range(3):

@@ -104,11 +104,11 @@ void SolverProcess::end() {
 
 bool SolverProcess::over(Deadline deadline) const { return to_end_ || std::chrono::steady_clock::now() >= deadline; }
 
-/// Passes on what has come of its standard error.
+/// Passes on what has come of its standard error; not for ever of one that never stops, which has a time limit.
 void SolverProcess::listen() {
   constexpr std::size_t kept = 4096;
   char chunk[4096];
-  while (complaints_ >= 0) {
+  for (int chunks = 0; complaints_ >= 0 && chunks < 16; ++chunks) {
     const ssize_t n = read(complaints_, chunk, sizeof chunk);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0 && errno == EAGAIN) return;
